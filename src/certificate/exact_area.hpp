@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Areas whose sum does not depend on order, threads and ranks.
+// Adds areas so that the sum does not depend on order, threads and ranks.
 #pragma once
 
 #include "trime/geometry/lattice.hpp"
@@ -12,17 +12,17 @@ namespace trime::certificate {
 
 __extension__ using Int128 = __int128;
 
-/// Twice an area in squared lattice steps: an integer, also over ranks (in three parts of 40 bits and the rest).
+/// Twice an area in squared lattice steps. It is an integer, which ranks exchange in three parts of 40 bits and a rest.
 struct ExactArea {
   Int128 twice = 0;
 
-  /// Exact. @pre the vertices lie on the lattice
+  /// Adds the exact area of a triangle. @pre the vertices lie on the lattice
   void add_triangle(geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r, const geometry::Lattice& lattice) {
     const Int128 ux = lattice.steps(q.x - p.x), uy = lattice.steps(q.y - p.y);
     const Int128 vx = lattice.steps(r.x - p.x), vy = lattice.steps(r.y - p.y);
     twice += ux * vy - uy * vx;
   }
-  /// Any area, rounded to half a squared step, which is 2^-86 of that of the container or less.
+  /// Adds any area, rounded to half a squared step, which is at most 2^-86 of the area of the container.
   void add(double area, const geometry::Lattice& lattice) {
     twice += static_cast<Int128>(2 * area * lattice.inverse_step() * lattice.inverse_step());
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes inner sites on a hexagonal lattice. Each rank makes the sites of its tiles; the set does not depend on the
-// ranks.
+// Makes inner sites on a hexagonal lattice. Each rank makes the sites of its tiles. The set of sites does not depend on
+// the ranks.
 #pragma once
 
 #include "mesh/binned_points.hpp"
@@ -16,28 +16,28 @@ namespace trime::placing {
 
 struct RowLattice;
 
-/// Neighbouring sites of one row of a lattice, in one tile: those of the columns first to last.
+/// Consecutive sites of one row of a lattice in one tile: those of the columns first to last.
 struct LatticeRun {
   std::int64_t row, first, last;
 };
 
-/// @brief The lattice sites of some tiles, not yet made: 24 bytes a run, which is a row of a tile, or a part of one
-/// near the boundary.
+/// @brief The lattice sites of some tiles, before they are made. A run is a row of a tile, or a part of a row near the
+/// boundary, and takes 24 bytes.
 struct LatticeRuns {
   double spacing = 0;
   std::vector<std::vector<LatticeRun>> of_tile;
 
-  /// Number of sites.
+  /// Returns the number of sites.
   std::int64_t count() const;
   /// Returns the number of sites of each tile.
   std::vector<std::int64_t> counts() const;
 };
 
-/// @brief Hexagonal lattice of a given spacing whose rows run along the longest straight side of the boundary, the
-/// first row one row height from it (axis-parallel if there is no straight side).
+/// @brief A hexagonal lattice of a given spacing whose rows run along the longest straight side of the boundary; the
+/// first row is one row height away from it. Without a straight side, rows run along an axis.
 ///
-/// In a periodic container its rows run along a periodic axis, and it is stretched a little to fit the periods; see
-/// fit_to_periods.
+/// In a periodic container, rows run along a periodic axis, and the lattice is slightly stretched to fit the periods;
+/// see fit_to_periods.
 class LatticeStart {
 public:
   LatticeStart(const geometry::Boundary& boundary, const polygon::BoundaryGuard& guard,
@@ -47,7 +47,7 @@ public:
   /// row and column, by all threads.
   LatticeRuns runs(const mesh::TileRange& tiles, double spacing) const;
   /// @brief Makes the sites of the runs, by all threads.
-  /// @param more number of sites that will be added, and that need room
+  /// @param more number of sites that will be added later, for which room is reserved
   mesh::SiteList sites(const LatticeRuns& runs, std::size_t more = 0) const;
   mesh::SiteList sites(const mesh::TileRange& tiles, double spacing) const { return sites(runs(tiles, spacing)); }
 
@@ -63,7 +63,8 @@ private:
   const polygon::BoundaryGuard& guard_;
   geometry::Lattice lattice_;
   geometry::Periods periods_;
-  bool has_side_ = false; // along_ is the direction of a straight side, in a periodic container of one along an axis
+  bool has_side_ =
+      false; // along_ is the direction of a straight side; in a periodic container, of a side along an axis
   geometry::Vec2 origin_, along_;
 };
 

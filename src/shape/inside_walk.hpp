@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds which points of a sequence lie inside a part, quickly also between very many long slanted spikes.
+// Finds which points of a sequence lie inside a part. It is fast even between many long slanted spikes.
 #pragma once
 
 #include "geometry/segment_tree.hpp"
@@ -10,17 +10,17 @@
 
 namespace trime::shape {
 
-/// @brief Gives the answers of Part::inside, bit for bit, for points that are mostly near the one before.
+/// @brief Gives exactly the results of Part::inside, for points of which most are near the point before.
 ///
-/// Where a bin has very many segments, only those between a point and the one before are looked at, if they are fewer:
-/// the side changes with each of them. Never more than twice the work of Part::inside. Keeps a reference.
+/// If a bin has very many segments, it examines only those between a point and the point before, because each of them
+/// changes the side. It never does more than twice the work of Part::inside. Keeps a reference.
 class InsideWalk {
 public:
   explicit InsideWalk(const Part& part) : part_(&part) {}
 
-  /// Returns Part::inside. @param p a point of the lattice, as are the vertices of the part
+  /// Returns Part::inside. @param p lies on the lattice, as the vertices of the part do
   bool inside(geometry::Vec2 p);
-  /// Segments of crowded bins that were looked at.
+  /// Number of segments of crowded bins that were examined.
   std::int64_t looked_at() const { return looked_at_; }
 
 private:
@@ -28,9 +28,9 @@ private:
 
   const Part* part_;
   std::int64_t looked_at_ = 0;
-  geometry::Vec2 last_; ///< in a crowded bin
+  geometry::Vec2 last_; ///< the last point in a crowded bin
   std::optional<bool> last_inside_;
-  std::optional<geometry::SegmentTree> tree_; ///< once so much was looked at that it pays
+  std::optional<geometry::SegmentTree> tree_; ///< made once so many segments were examined that it saves time
 };
 
 } // namespace trime::shape

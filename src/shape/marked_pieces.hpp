@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Markers of a contour's segments on the pieces of the boundary that follow them.
+// Transfers markers of the segments of contours to the pieces of the boundary.
 #pragma once
 
 #include "trime/geometry/boundary.hpp"
@@ -12,12 +12,12 @@
 
 namespace trime::shape {
 
-/// Has any segment of these parts a marker?
+/// Returns whether any segment of these parts has a marker.
 bool have_markers(std::span<const Part> parts);
 
-/// @brief Gives pieces whose segment has a marker a part of their own, see geometry::Domain.
-/// @param parts those that Piece::part names; the boundary may have the domain behind them
-/// @return the marker of each name of a part, 0 for none
+/// @brief Gives pieces whose segment has a marker a separate part, see geometry::Domain.
+/// @param parts the parts to which Piece::part refers; the boundary may have the domain behind them
+/// @return the marker of each name of a part, 0 if it has no marker
 std::vector<std::int32_t> name_markers(geometry::Boundary& boundary, std::span<const Part> parts,
                                        const geometry::Frame& frame);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Is a point in the region, if it lies in few of very many parts?
+// Decides quickly whether a point lies in a region, if it lies in few of very many parts.
 #pragma once
 
 #include "trime/shape/region.hpp"
@@ -8,15 +8,17 @@
 
 namespace trime::shape {
 
-/// @brief The value of a region while parts come and go. It begins with no part.
+/// @brief Whether a point lies in a region, while the parts that contain the point change. At first no part contains
+/// it.
 ///
-/// Each operation knows how many of its operands decide it, so that a change costs O(occurrences of the part x depth),
-/// however many parts there are.
+/// Each operation counts the operands that decide it, so a change costs O(occurrences of the part x depth), however
+/// many parts there are.
 class RegionState {
 public:
   /// O(parts). @param parts number of parts, the domain included @pre `region` outlives it
   RegionState(const Region& region, std::size_t parts);
-  /// One more place of the part (it may have several, in a periodic container) holds the point, or one less.
+  /// Notes that one more image of the part contains the point, or one fewer; in a periodic container there may be
+  /// several.
   void enter(int part) {
     if (places_[static_cast<std::size_t>(part)]++ == 0)
       change(part, true);
@@ -25,9 +27,9 @@ public:
     if (--places_[static_cast<std::size_t>(part)] == 0)
       change(part, false);
   }
-  /// Region::contains for a point in those parts that were entered and not left.
+  /// Returns Region::contains for a point in the parts that were entered and not left.
   bool contains() const { return values_[0] != 0; }
-  /// Operations and parts whose value was looked at so far.
+  /// Number of operations and parts whose value was examined so far.
   std::int64_t looked_at() const { return looked_at_; }
 
 private:
@@ -35,12 +37,12 @@ private:
   bool is_deciding(int node) const;
 
   const Region& region_;
-  std::vector<int> parent_;              // of each node; the root has none: -1
-  std::vector<char> negates_;            // is the operand subtracted?
-  std::vector<int> deciding_;            // operands with the value that decides their operation
-  std::vector<char> values_;             // of each node
-  std::vector<std::vector<int>> leaves_; // of each part
-  std::vector<int> places_;              // of each part that hold the point
+  std::vector<int> parent_;              // parent of each node; -1 for the root
+  std::vector<char> negates_;            // whether the operand is subtracted
+  std::vector<int> deciding_;            // number of operands with the value that decides the operation
+  std::vector<char> values_;             // value of each node
+  std::vector<std::vector<int>> leaves_; // leaves of each part
+  std::vector<int> places_;              // number of images of each part that contain the point
   std::int64_t looked_at_ = 0;
 };
 

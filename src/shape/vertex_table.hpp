@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Vertices of an arrangement: points of the lattice; those nearer than a few steps become one.
+// The vertices of an arrangement: points of the lattice. Points within a few steps of each other become one vertex.
 #pragma once
 
 #include "trime/core/types.hpp"
@@ -11,26 +11,27 @@
 
 namespace trime::shape {
 
-/// Open hash table over square cells of 2^7 steps. Never iterated, so that nothing depends on its order.
+/// An open hash table over square cells of 2^7 steps. It is never iterated, so no result depends on its order.
 class VertexTable {
 public:
-  static constexpr int merge_steps = 8; ///< points at most so far apart become one vertex
-  static constexpr int shared = -2;     ///< owner of a vertex that lies on several parts
+  static constexpr int merge_steps = 8; ///< points at most this far apart become one vertex
+  static constexpr int shared = -2;     ///< the owner of a vertex that lies on several parts
   static constexpr int nobody = -1;
 
   /// @param expected number of vertices, for the size of the table; more are possible
   VertexTable(const geometry::Lattice& lattice, std::size_t expected);
 
-  /// @brief Vertex at p, for part `owner` or for a crossing (nobody).
+  /// @brief Returns the vertex at p, for part `owner` or for a crossing (nobody).
   ///
-  /// The nearest vertex within merge_steps if there is one (lowest index on ties), else a new one. Vertices of one part
-  /// merge with each other only if they are equal. A vertex asked for by two parts, or for a crossing, is shared.
+  /// This is the nearest vertex within merge_steps (the lowest index of equals) or, if there is no such vertex, a new
+  /// one. Vertices of one part merge with each other only if they are equal. A vertex asked for by two parts, or for a
+  /// crossing, is shared.
   LocalIndex insert(geometry::Vec2 p, int owner);
 
   geometry::Vec2 point(LocalIndex v) const { return points_[v]; }
   bool is_shared(LocalIndex v) const { return owners_[v] == shared; }
   void set_shared(LocalIndex v) { owners_[v] = shared; }
-  /// Frees what is needed to insert vertices and to know which are shared: points and size stay.
+  /// Frees the memory that is needed to insert vertices and to know which are shared. Points and size stay.
   void forget_search();
   LocalIndex size() const { return static_cast<LocalIndex>(points_.size()); }
 
@@ -48,7 +49,7 @@ private:
   std::vector<geometry::Vec2> points_;
   std::vector<int> owners_;
   std::vector<LocalIndex> next_;  // next vertex of the same slot
-  std::vector<LocalIndex> heads_; // first vertex of each slot; a power of two of them
+  std::vector<LocalIndex> heads_; // first vertex of each slot; the number of slots is a power of two
 };
 
 } // namespace trime::shape

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far simplified curves lie from those of a shape, in sizes: the one rule by which they are made and judged.
+// Measures how far simplified curves lie from those of a shape, relative to h. The simplification and the certificate
+// both use it.
 #pragma once
 
 #include "trime/geometry/boundary.hpp"
@@ -18,8 +19,8 @@ struct CurveDistance {
   double in_sizes() const { return distance / size; }
 };
 
-/// @brief That of a piece: at its start, which is where the one before ends, and in its middle. The size is not
-/// checked. O(log of the pieces of the shape), thread-safe.
+/// @brief Returns the distances of a piece at its start and in its middle. Does not check the size. O(log of the pieces
+/// of the shape), thread-safe.
 inline std::array<CurveDistance, 2> curve_distances(const geometry::Piece& piece, const geometry::PieceTree& shape,
                                                     const SizeField& asked, const geometry::Periods& periods) {
   const auto at_place = [&](geometry::Vec2 p) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds the periodic images of a thing that count in a container: those within half a period of it.
+// Finds the periodic images that count in a container: those within half a period of it.
 #pragma once
 
 #include "trime/geometry/vec2.hpp"
@@ -11,12 +11,12 @@ namespace trime::sizing {
 
 class Images {
 public:
-  /// @param period_x, period_y 0 if not periodic
+  /// @param period_x, period_y periods; 0 if not periodic
   Images(const geometry::Box& container, double period_x, double period_y)
       : container_(container), period_x_(period_x), period_y_(period_y) {}
 
-  /// Shifts that may bring a thing into reach, the null shift among them: things lie in the container or within two
-  /// periods of it.
+  /// Returns the shifts that may bring an object into reach, including the null shift. Objects lie in the container or
+  /// within two periods of it.
   std::vector<geometry::Vec2> shifts() const {
     std::vector<geometry::Vec2> list;
     const int nx = period_x_ > 0 ? 3 : 0, ny = period_y_ > 0 ? 3 : 0;
@@ -26,18 +26,19 @@ public:
     return list;
   }
 
-  /// May anything in the box be the nearest to a point of the container? Always true where it is not periodic.
+  /// Returns whether an object in the box may be the nearest to a point of the container. Always true if it is not
+  /// periodic.
   bool in_reach(const geometry::Box& box) const {
     return overlaps(box.min.x, box.max.x, container_.min.x, container_.max.x, period_x_) &&
            overlaps(box.min.y, box.max.y, container_.min.y, container_.max.y, period_y_);
   }
 
-  /// The image of p in the container, as far as it is periodic.
+  /// Returns the image of p in the container, along periodic axes.
   geometry::Vec2 wrap(geometry::Vec2 p) const {
     return {wrap(p.x, container_.min.x, period_x_), wrap(p.y, container_.min.y, period_y_)};
   }
 
-  /// Is p in the container, or in one of its images?
+  /// Returns whether p lies in the container or in one of its images.
   bool in_container(geometry::Vec2 p) const {
     return (period_x_ > 0 || (p.x >= container_.min.x && p.x <= container_.max.x)) &&
            (period_y_ > 0 || (p.y >= container_.min.y && p.y <= container_.max.y));

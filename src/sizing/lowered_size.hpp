@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A size field that is lowered around some places, as far as a gradation allows.
+// A size field that is lowered around given places; a gradation limits how fast it grows from there.
 #pragma once
 
 #include "trime/geometry/periods.hpp"
@@ -21,7 +21,8 @@ struct SizeLimit {
   double size;
 };
 
-/// @brief min(field(x), min over limits k of size_k + gradation |x - place_k|), nearest images in a periodic container.
+/// @brief The size min(field(x), min over limits k of size_k + gradation |x - place_k|), with the nearest images in a
+/// periodic container.
 class LoweredSize final : public SizeField {
 public:
   /// O(n log n) for n limits. @pre `field` outlives this object
@@ -29,9 +30,9 @@ public:
               const geometry::Periods& periods);
   LoweredSize(const SizeField&&, const std::vector<SizeLimit>&, double, const geometry::Periods&) = delete;
   ~LoweredSize() override;
-  /// About 60 ns among a thousand limits. What is no valid size comes through as it is.
+  /// Takes about 60 ns among a thousand limits. Invalid sizes of the field are returned unchanged.
   double size(geometry::Vec2 p) const override;
-  /// Does the same where the field is known to have a valid value.
+  /// As size(p), where the field is known to have the valid value `field_size`.
   double lowered(geometry::Vec2 p, double field_size) const;
   bool is_uniform() const override { return false; }
   std::size_t memory_bytes() const override;

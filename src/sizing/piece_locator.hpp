@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nearest point of a boundary and of its periodic images.
+// Finds the nearest point of a boundary and of its periodic images.
 #pragma once
 
 #include "cones/box_tree.hpp"
@@ -12,19 +12,19 @@
 
 namespace trime::sizing {
 
-/// Boxes around runs of consecutive pieces, and around those. Immutable; queries are thread-safe.
+/// A hierarchy of boxes around runs of consecutive pieces. Immutable; queries are thread-safe.
 class PieceLocator {
 public:
-  /// O(M) time for M pieces.
+  /// Takes O(M) time for M pieces.
   PieceLocator(const geometry::Boundary& boundary, const Images& images);
-  /// Share by which the returned point may be farther than the nearest. From the centre of a circle of many segments
-  /// all are nearly equally near, and examining each one would take too long.
+  /// [1] Share by which the returned point may be farther away than the nearest. All segments of a circle are almost
+  /// equally near to its centre, and examining each one would take too long.
   static constexpr double slack = 5e-4;
-  /// A boundary point, and the segment it lies on; the same point three times if that is an arc.
+  /// A boundary point, and the segment on which it lies; on an arc, all three are the boundary point.
   struct Nearest {
     geometry::Vec2 point, segment_start, segment_end;
   };
-  /// Nearest boundary point to p that is nearer than `reach`, if there is any. O(log M) for curves.
+  /// Returns the boundary point nearest to p, if one is nearer than `reach`. O(log M) for curves.
   std::optional<Nearest> nearest(geometry::Vec2 p, double reach) const;
 
 private:
