@@ -23,9 +23,9 @@ struct Expectation {
 };
 
 /// @brief Makes the certificate. With exact integers it checks that the mesh is a manifold of positive triangles with
-/// the right Euler characteristic and area, that it is Delaunay and has all chords, corners and fixed points, and that
-/// all stars agree with each other and with `mesh`, the arrays that will be written. Then it compares the boundary of
-/// the mesh with that of the shape, see prove_boundary. Collective. O(points + pieces log(pieces))
+/// the right Euler characteristic and area, and that it is Delaunay and has all chords, corners and fixed points. It
+/// checks that all stars agree with each other and with `mesh`, the arrays that will be written. Then it compares the
+/// boundary of the mesh with that of the shape, see prove_boundary. Collective. O(points + pieces log(pieces))
 mesh::Checks certify(const sites::StageView& view, const decomposition::Numbering& numbering,
                      const Expectation& expectation, const mesh::DistributedMesh& mesh);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds the nearest thing to a place, including images in periodic containers.
+// Finds the nearest point or facet to a place, including images in periodic containers.
 #pragma once
 
 #include "mesh.hpp"
@@ -10,22 +10,22 @@
 
 namespace trime_check {
 
-/// p and its images one period away, p first.
+/// Returns p and its images one period away, p first.
 std::vector<Point> images_of(Point p, const Periods& periods);
 
-/// The nearest one; `distance` is infinite if there is no candidate.
+/// The nearest object; `distance` is infinite if there is no candidate.
 struct Nearest {
   std::size_t number = 0;
   double distance = 0;
 };
 
-/// @brief Finds points. n log n to build, log n for a question.
+/// @brief Finds points. O(n log n) to build, O(log n) per query.
 class PointFinder {
 public:
   PointFinder(const std::vector<Point>& points, const Periods& periods);
   ~PointFinder();
   Nearest nearest(Point p) const;
-  /// Returns the nearest one except the point with this number.
+  /// Returns the nearest point except the one with this number.
   Nearest nearest_other(std::size_t number) const;
 
 private:
@@ -34,7 +34,7 @@ private:
   Periods periods_;
 };
 
-/// Finds facets of a mesh, at the cost of `PointFinder`.
+/// Finds facets of a mesh, at the same cost as PointFinder.
 class FacetFinder {
 public:
   explicit FacetFinder(const Mesh& mesh);

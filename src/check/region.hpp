@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A region as a tree of unions, intersections and differences of parts.
+// Represents a region as a tree of unions, intersections and differences of parts.
 #pragma once
 
 #include <cstddef>
@@ -12,36 +12,36 @@ namespace trime_check {
 /// Numbers of parts by their names.
 using PartNumbers = std::unordered_map<std::string, std::size_t>;
 
-/// @brief Says whether a place lies in the region that is in some of the parts. A change of one part costs as much as
-/// the tree is deep.
+/// @brief Says whether a place that lies in some of the parts lies in the region. Changing one part costs O(depth of
+/// the tree).
 class Region {
 public:
   static constexpr std::size_t none = ~std::size_t{0};
   enum class Kind { part, unite, intersect, subtract };
   struct Node {
     Kind kind = Kind::part;
-    std::size_t part = none;           ///< of a leaf
-    std::size_t parent = none;         ///< behind all its children
-    bool is_first = false;             ///< of the children of its parent
-    std::size_t children = 0, set = 0; ///< set: of the children, those that hold; of a leaf 1 or 0
+    std::size_t part = none;           ///< part of a leaf
+    std::size_t parent = none;         ///< comes after all its children
+    bool is_first = false;             ///< first child of its parent
+    std::size_t children = 0, set = 0; ///< set counts the children that contain the place; for a leaf it is 1 or 0
     bool first_is_set = false;
   };
 
-  /// @throws Failure (exit 2) if the text is no region of these parts
+  /// @throws Failure (exit 2) if the text is not a region of these parts
   Region(const std::string& text, const PartNumbers& parts);
 
-  /// The place is in this part or out of it. At first it is in none.
+  /// Sets whether the place is in this part. At first it is in no part.
   void set(std::size_t part, bool inside);
   bool uses(std::size_t part) const { return !leaves_[part].empty(); }
   bool contains() const { return holds(nodes_.back()); }
-  /// Children before their parents; the last one is the root.
+  /// The nodes: children come before their parents, and the last node is the root.
   const std::vector<Node>& nodes() const { return nodes_; }
 
 private:
   static bool holds(const Node& node);
 
   std::vector<Node> nodes_;
-  std::vector<std::vector<std::size_t>> leaves_; // of each part
+  std::vector<std::vector<std::size_t>> leaves_; // leaves of each part
 };
 
 } // namespace trime_check

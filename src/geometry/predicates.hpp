@@ -50,9 +50,8 @@ inline int in_circle_filter(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
 /// Returns the result of in_circle without the filter: for tests, and if the filter is not certain.
 int in_circle_exact(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice);
 
-/// @brief As in_circle, but for a periodic container, where images of the four points give the same result. Ties are
-/// broken by the order of the canonical images, so all images of four points agree. Without periods it is the function
-/// above.
+/// @brief As in_circle, in a periodic container, where images of the four points give the same result. Ties are broken
+/// by the order of the canonical images, so all images of four points agree. Without periods it is the function above.
 int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice, const Periods& periods);
 
 } // namespace trime::geometry

@@ -76,8 +76,8 @@ private:
     CurveSquare square;
     geometry::Box box;
     bool clear;      ///< a larger part around it lies inside and does not touch the boundary or its
-                     ///< PlacingRules::density_strip
-    NearChords near; ///< chords near the part of which it is a quarter
+                     // /< PlacingRules::density_strip
+    NearChords near; ///< chords near the part that it is a quarter of
   };
   struct Work {
     std::int64_t cells = 0;

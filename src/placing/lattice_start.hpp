@@ -63,8 +63,8 @@ private:
   const polygon::BoundaryGuard& guard_;
   geometry::Lattice lattice_;
   geometry::Periods periods_;
-  bool has_side_ =
-      false; // along_ is the direction of a straight side; in a periodic container, of a side along an axis
+  /// If true, along_ is the direction of a straight side; in a periodic container, of a side along an axis.
+  bool has_side_ = false;
   geometry::Vec2 origin_, along_;
 };
 

@@ -10,7 +10,7 @@
 
 namespace trime::shape {
 
-/// @brief Gives exactly the results of Part::inside, for points of which most are near the point before.
+/// @brief Gives exactly the results of Part::inside, for points that mostly are near the point before.
 ///
 /// If a bin has very many segments, it examines only those between a point and the point before, because each of them
 /// changes the side. It never does more than twice the work of Part::inside. Keeps a reference.
@@ -30,7 +30,7 @@ private:
   std::int64_t looked_at_ = 0;
   geometry::Vec2 last_; ///< the last point in a crowded bin
   std::optional<bool> last_inside_;
-  std::optional<geometry::SegmentTree> tree_; ///< made once so many segments were examined that it saves time
+  std::optional<geometry::SegmentTree> tree_; ///< made once it saves time, after many segments were examined
 };
 
 } // namespace trime::shape
