@@ -50,7 +50,7 @@ struct Mesh {
   std::vector<std::int64_t> region, boundary, fixed;
 
   bool has_vtk = true,
-       has_plain = true; ///< whether the file has /VTKHDF and /Mesh/mesh, of which a run may leave out one
+       has_plain = true; ///< whether the file has /VTKHDF and /Mesh/mesh; a run may leave out one of them
   // The views are copies of points and triangles for other readers.
   std::vector<double> vtk_points, petsc_points;
   std::vector<std::int64_t> connectivity, offsets, types,
