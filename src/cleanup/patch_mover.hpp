@@ -52,8 +52,8 @@ private:
 };
 
 /// @brief Returns the sum of e^2 + w e^4 over the triangles (p, ring[k], ring[k+1]), where e = eta - 1 and w =
-/// CleanupRules::quartic_weight. eta = (a^2 + b^2 + c^2) / (4 sqrt(3) area) of the edges a, b, c is 1 for an
-/// equilateral triangle, smooth, and without a scale (Bank and Smith 1997). The square improves the mean, and the
+/// CleanupRules::quartic_weight. The quality eta = (a^2 + b^2 + c^2) / (4 sqrt(3) area) of the edges a, b, c is 1 for
+/// an equilateral triangle, smooth, and without a scale (Bank and Smith 1997). The square improves the mean, and the
 /// fourth power gives the worst triangle most weight. Returns infinity if a triangle is inverted or flat, or once the
 /// sum reaches `limit`.
 /// @param closed true if the ring is closed, false if it is the open fan of a vertex on the boundary

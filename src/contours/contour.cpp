@@ -236,9 +236,9 @@ Contour read_contour(const std::string& path, const std::string& hint, const std
   const std::string text = read_file(path, hint);
   if (ends_with_extension(path, ".poly") && lacks_vertices(text)) {
     const std::string stem = path.substr(0, path.size() - std::string_view(".poly").size());
-    return parse_poly(
-        text, path,
-        read_file(stem + ".node", fmt::format(" ({} itself has no vertices, so they must be in this file)", path)));
+    return parse_poly(text, path,
+                      read_file(stem + ".node", fmt::format(" ({} itself has no vertices, so they must be in {})", path,
+                                                            stem + ".node")));
   }
   return parse_contour(text, path, attribute);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Boundary edges of a mesh put one after the other into closed loops. Serial.
+// Joins boundary edges of a mesh to closed loops. Serial.
 #pragma once
 
 #include "trime/core/types.hpp"
@@ -9,11 +9,11 @@
 
 namespace trime::io {
 
-/// Boundary edge, interior on the left.
+/// A boundary edge with the interior on its left.
 struct LoopEdge {
   GlobalId first = 0, second = 0;
   std::int64_t tag = 0;
-  geometry::Vec2 place; ///< of the first point
+  geometry::Vec2 place; ///< place of the first point
 };
 
 struct LoopVertex {
@@ -21,12 +21,13 @@ struct LoopVertex {
   geometry::Vec2 place;
 };
 
-/// The point among the periodic images of `p` that is nearest to `near`; period 0: there are no images.
+/// Returns the periodic image of `p` that is nearest to `near`. A period of 0 means that there are no images.
 geometry::Vec2 nearest_image(geometry::Vec2 p, geometry::Vec2 near, geometry::Vec2 period);
 
-/// @brief All loops, by tag, then by lowest vertex; each starts at its lowest vertex, which is not repeated, and runs
-/// counter-clockwise (holes too). A loop that winds round a periodic container has no such sense: it keeps the interior
-/// on its left. Every edge comes in exactly one loop; an edge without successor ends its loop. O(edges log edges).
+/// @brief Returns all loops, by tag, then by lowest vertex. Each starts at its lowest vertex, which is not repeated,
+/// and runs counter-clockwise, also around holes. A loop that winds around a periodic container has no such direction;
+/// it keeps the interior on its left. Every edge is in exactly one loop; an edge without successor ends its loop.
+/// O(edges log edges).
 std::vector<std::vector<LoopVertex>> boundary_loops(std::vector<LoopEdge> edges, geometry::Vec2 period);
 
 } // namespace trime::io

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Names of the files of a run, and the look at what lies under these names already. Serial: rank 0 only.
+// Makes the names of the files of a run, and checks for existing files with these names. Serial: rank 0 only.
 #pragma once
 
 #include "io/temporary_file.hpp"
@@ -10,18 +10,18 @@
 
 namespace trime::io {
 
-/// Bytes that files of a run have behind NAME at most, "_2147483647_bdry_vertices_coords_CCW_1234567890.txt".
+/// [bytes] Longest ending of a file of a run after NAME: "_2147483647_bdry_vertices_coords_CCW_1234567890.txt".
 inline constexpr std::size_t longest_ending = 51;
-/// Bytes of NAME, so that all files of a run can be written, under their temporary names first.
+/// [bytes] Longest NAME with which all files of a run can be written, also under their temporary names.
 inline constexpr std::size_t longest_name = longest_file_name - longest_temporary_ending - longest_ending;
 
-/// "NAME_step_000012".
+/// Returns "NAME_step_000012".
 std::string step_name(const std::string& name, int retriangulation);
-/// "NAME_step_", before the number.
+/// Returns "NAME_step_", which comes before the number.
 std::string step_name_start(const std::string& name);
-/// The view of the facets of a mesh.
+/// Returns the path of the view of the facets of a mesh.
 std::string facet_view(const MeshFileOptions& options);
-/// The collections of a series.
+/// Return the paths of the collections of a series.
 std::string xdmf_collection(const MeshFileOptions& options);
 std::string vtkhdf_collection(const MeshFileOptions& options);
 
@@ -29,7 +29,8 @@ std::string vtkhdf_collection(const MeshFileOptions& options);
 /// or that belong to an older run with this name. The final mesh and its views are not among them.
 std::vector<std::string> files_of_series(const SeriesOptions& options);
 
-/// Has a file in the output directory such a name, steps of any number included? @param name stem of the run's files
+/// Returns whether a file in the output directory has a name of a file of the run, or of a step with any number. @param
+/// name stem of the files of the run
 bool is_file_of_run(const std::string& file, const std::string& name);
 
 /// Does the work of MeshSeries::check() on rank 0.

@@ -45,13 +45,14 @@ public:
     expression(0);
     skip_blanks();
     if (position_ < text_.size())
-      fail("expected the end of the formula, such as 'union(a, b)' for two parts");
+      fail("expected the end", "; write 'union(a, b)' to join two parts");
   }
 
 private:
-  [[noreturn]] void fail(const std::string& what) const {
+  [[noreturn]] void fail(const std::string& what, const std::string& hint = "") const {
     const std::string found = position_ < text_.size() ? fmt::format("'{}'", text_.substr(position_, 20)) : "the end";
-    throw ConfigError(fmt::format("geometry, column {}: {}, found {} in '{}'", position_ + 1, what, found, text_));
+    throw ConfigError(
+        fmt::format("geometry, column {}: {}, found {} in '{}'{}", position_ + 1, what, found, text_, hint));
   }
 
   void skip_blanks() {
