@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lists the places of bad triangles, chooses those that the clean-up tries next, and limits how many sites it may add and
-// remove.
+// Lists the places of bad triangles, chooses those that the clean-up tries next, and limits how many sites it may add
+// and remove.
 #pragma once
 
 #include "cleanup/cleanup_choice.hpp"

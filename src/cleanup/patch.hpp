@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The triangulation around a bad triangle: its sites, which of them may take part, data of its vertices, and the quality of
-// its triangles.
+// The triangulation around a bad triangle: its sites, which of them may take part, data of its vertices, and the
+// quality of its triangles.
 #pragma once
 
 #include "cleanup/patch_data.hpp"

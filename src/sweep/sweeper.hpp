@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs the sweeps of a stage: each certifies the stars and moves the sites. The schedule decides when sites are sorted and
-// when h is evaluated again.
+// Runs the sweeps of a stage: each certifies the stars and moves the sites. The schedule decides when sites are sorted
+// and when h is evaluated again.
 #pragma once
 
 #include "core/state_fields.hpp"
