@@ -7,7 +7,7 @@
 
 #include <vector>
 
-namespace trime::io {
+namespace trime::formats {
 
 /// Boundary edge, interior on the left.
 struct LoopEdge {
@@ -29,4 +29,4 @@ geometry::Vec2 nearest_image(geometry::Vec2 p, geometry::Vec2 near, geometry::Ve
 /// on its left. Every edge comes in exactly one loop; an edge without successor ends its loop. O(edges log edges).
 std::vector<std::vector<LoopVertex>> boundary_loops(std::vector<LoopEdge> edges, geometry::Vec2 period);
 
-} // namespace trime::io
+} // namespace trime::formats
