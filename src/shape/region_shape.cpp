@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trime/shape/region_shape.hpp"
 
-#include "core/nearest_name.hpp"
 #include "core/quoted.hpp"
 #include "shape/make_boundary.hpp"
 #include "shape/part_images.hpp"

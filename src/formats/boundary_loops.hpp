@@ -7,7 +7,7 @@
 
 #include <vector>
 
-namespace trime::io {
+namespace trime::formats {
 
 /// A boundary edge with the interior on its left.
 struct LoopEdge {
@@ -30,4 +30,4 @@ geometry::Vec2 nearest_image(geometry::Vec2 p, geometry::Vec2 near, geometry::Ve
 /// O(edges log edges).
 std::vector<std::vector<LoopVertex>> boundary_loops(std::vector<LoopEdge> edges, geometry::Vec2 period);
 
-} // namespace trime::io
+} // namespace trime::formats
