@@ -38,7 +38,7 @@ ARROWS = {
     "certificate": ["comm", "geometry", "mesh", "sizing", "decomposition", "polygon", "sites"],
     "meshing": ["comm", "geometry", "mesh", "shape", "sizing", "delaunay", "decomposition", "polygon", "boundary",
                 "sites", "fitting", "start", "sweep", "cleanup", "extraction", "certificate"],
-    "io": ["comm", "geometry", "mesh"],
+    "io": ["comm", "mesh"],
     "checkpoint": ["comm", "sweep", "meshing", "io"],
     "record": ["comm", "geometry", "mesh", "shape", "polygon", "boundary", "sweep", "meshing", "io"],
     "formats": ["comm", "geometry", "mesh", "projection", "io"],

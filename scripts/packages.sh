@@ -33,6 +33,7 @@ trime_test_packages=(
   doxygen                                         # reference pages of the public headers: scripts/doxygen.sh
   clang clang-format libomp-dev libclang-rt-14-dev # second compiler with its OpenMP and sanitizers, house style
   clang-tidy                                      # tidy.sh
+  ccache                                          # the two MPIs share the objects that know nothing of MPI
   flake8 universal-ctags                          # rules for Python; finds functions that are too long
 )
 

@@ -225,7 +225,7 @@ def main():
                         help="keep the builds in this directory for the next time")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="compilers at once (default: one per core)")
     parser.add_argument("--cmake", metavar="ARGUMENT", action="append", default=[],
-                        help="for all builds, such as --cmake=-DTRIME_PRECOMPILE=ON; may be repeated")
+                        help="for all builds, such as --cmake=-DTRIME_NATIVE=ON; may be repeated")
     options = parser.parse_args()
     cases = chosen(options.cases, CASES, "config")
     if not cases:

@@ -3,6 +3,7 @@
 
 #include "core/quoted.hpp"
 #include "trime/core/error.hpp"
+#include "trime/formats/exchange.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -104,6 +105,15 @@ void refuse_what_is_missing(const CommandLine& line, const Flags& flags) {
     throw ConfigError("'--quiet', '--verbose' and '--log-level' contradict each other; give one of them");
 }
 
+/// " .msh .msh2 ...", the formats into which meshes are converted.
+std::string endings() {
+  std::string text;
+  for (const formats::FormatInfo& format : formats::all_formats())
+    if (format.plan)
+      text += std::string(" ") + format.ending;
+  return text;
+}
+
 } // namespace
 
 CommandLine parse_command_line(int argc, const char* const* argv) {
@@ -112,8 +122,10 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   CLI::App app("Distributed generator of large 2D triangle meshes.\n"
                "[mpirun -np RANKS] trime_mpi CONFIG [section.key=value ...] [OPTIONS]\n"
                "[mpirun -np RANKS] trime_mpi convert IN.h5 OUT.ENDING   a mesh in the format of another program:\n"
-               "                   .msh .msh2 .mesh .freefem .node .vtu .2dm .14 .geojson, see configs/formats.md\n"
-               "trime_mpi info FILE.h5   what is in a mesh file",
+               "                  " +
+                   endings() +
+                   ", see configs/formats.md\n"
+                   "trime_mpi info FILE.h5   what is in a mesh file",
                "trime_mpi");
   declare(app, line, flags);
   for (int k = 0; k < argc; ++k)

@@ -5,7 +5,7 @@
 #include "app/settings.hpp"
 #include "core/angle.hpp"
 #include "core/quoted.hpp"
-#include "io/output_files.hpp"
+#include "formats/output_files.hpp"
 #include "trime/core/error.hpp"
 #include "trime/core/formula.hpp"
 #include "trime/shape/region_shape.hpp"
@@ -204,11 +204,12 @@ void read_resolution(const Settings& settings, const geometry::Box& container, m
   const double area = container.width() * container.height();
   const double expected = mesh.edge_length ? area / (row_height * *mesh.edge_length * *mesh.edge_length) : 0;
   if (expected > most_points)
-    problems.add(
-        settings.line("meshing", "edge_length"),
-        fmt::format("'edge_length = {}' in [meshing] asks for about {:.2g} points in a container of area {:.3g}; "
-                    "at most {:.0e} are possible",
-                    *mesh.edge_length, expected, area, most_points));
+    problems.add(settings.line("meshing", "edge_length"),
+                 fmt::format("'edge_length = {}' in [meshing] asks for {} points in a container of area {:.3g}; "
+                             "at most {:.0e} are possible; use a larger edge_length",
+                             *mesh.edge_length,
+                             expected < 1e18 ? fmt::format("about {:.2g}", expected) : "far too many", area,
+                             most_points));
 }
 
 /// The edge length is within the bounds of the size, which were read before.
@@ -293,11 +294,11 @@ void check_name(const Settings& settings, const std::string& name, Diagnostics& 
                  fmt::format("'name = {}' in [output]: expected the stem of a file name without a directory; set "
                              "output.directory for the directory",
                              shown(name)));
-  if (name.size() > io::longest_name)
+  if (name.size() > formats::longest_name)
     problems.add(settings.line("output", "name"),
                  fmt::format("'name = {}' in [output]: expected at most {} bytes, found {}. File systems allow names "
                              "of {} bytes, and the run adds endings to the name; set a shorter output.name",
-                             shown(name), io::longest_name, name.size(), io::longest_file_name));
+                             shown(name), formats::longest_name, name.size(), io::longest_file_name));
 }
 
 void read_output(const Settings& settings, RunOptions& options, Diagnostics& problems) {
@@ -307,21 +308,17 @@ void read_output(const Settings& settings, RunOptions& options, Diagnostics& pro
   file.overwrite = settings.boolean("output", "overwrite");
   const std::int64_t interval = settings.integer("output", "interval");
   options.write = interval != 0;
-  const std::vector<std::string> formats = split_words(settings.text("output", "formats"));
-  const auto is_wanted = [&](const char* format) {
-    return std::find(formats.begin(), formats.end(), format) != formats.end();
-  };
-  file.vtkhdf = is_wanted("vtkhdf");
-  file.xdmf = is_wanted("xdmf");
-  options.output.text = is_wanted("text");
-  for (const std::string& word : formats)
-    if (const auto format = formats::format_of_word(word); format && options.write)
-      options.exports.push_back(*format);
-  if (!options.exports.empty() && (options.periodic_x || options.periodic_y))
+  options.output.formats.clear();
+  for (const std::string& word : split_words(settings.text("output", "formats")))
+    options.output.formats.push_back(*formats::format_of_word(word)); // the table of options has all these words
+  const auto is_refused = [](formats::Format format) { return !formats::info_of(format).holds_periodic; };
+  const auto& formats = options.output.formats;
+  if (options.write && (options.periodic_x || options.periodic_y) &&
+      std::any_of(formats.begin(), formats.end(), is_refused))
     problems.add(settings.line("output", "formats"),
-                 fmt::format("'formats = {}' in [output]: a periodic container can be written as vtkhdf, xdmf and text "
-                             "only",
-                             settings.text("output", "formats")));
+                 fmt::format("'formats = {}' in [output]: a periodic container can be written as {} only",
+                             settings.text("output", "formats"),
+                             formats::words_of(&formats::FormatInfo::holds_periodic, "and")));
   options.mesh.snapshot_interval = interval == -1 ? 0 : static_cast<int>(interval);
   options.output.steps = options.mesh.snapshot_interval != 0;
   check_name(settings, file.name, problems);

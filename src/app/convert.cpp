@@ -1,48 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/convert.hpp"
 
-#include "comm/agree.hpp"
 #include "core/quoted.hpp"
-#include "core/read_file.hpp"
-#include "io/temporary_file.hpp"
+#include "formats/output_files.hpp"
+#include "trime/core/error.hpp"
 #include "trime/io/mesh_file.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 
 namespace trime::app {
 namespace {
 
 using io::Metadata;
-
-std::string path_of(formats::Format format, const io::MeshFileOptions& file) {
-  for (const formats::FormatName& name : formats::all_formats())
-    if (name.format == format)
-      return file.path(name.ending);
-  return {};
-}
-
-/// Refuses a path that something has; a link to nothing counts, too.
-void refuse_to_replace(const std::string& path, bool overwrite, const char* advice) {
-  std::error_code error;
-  if (const std::string problem = io::length_problem(path, io::longest_temporary_ending); !problem.empty())
-    throw FileError(fmt::format("{} cannot be written: {}; choose a shorter one", shown(path), problem));
-  if (const std::string kind = irregular_kind(path); !kind.empty())
-    throw FileError(fmt::format("{} is {}, which is not replaced; choose another name", path, kind));
-  if (!overwrite && std::filesystem::exists(std::filesystem::symlink_status(path, error)))
-    throw FileError(fmt::format("{} exists; {}", path, advice));
-}
-
-/// On rank 0, for all.
-void refuse_to_replace(const std::vector<std::string>& paths, bool overwrite, const char* advice,
-                       const comm::Communicator& comm) {
-  comm::run_agreed(comm, [&] {
-    if (comm.is_root())
-      for (const std::string& path : paths)
-        refuse_to_replace(path, overwrite, advice);
-  });
-}
 
 /// A value as words, or nothing if the file has none.
 std::string value_text(const Metadata& metadata, const std::string& name) {
@@ -64,8 +34,9 @@ formats::Format format_of_output(const std::string& path) {
   if (const auto format = formats::format_of_path(path))
     return *format;
   std::string endings;
-  for (const formats::FormatName& name : formats::all_formats())
-    endings += fmt::format("{}{} ({})", endings.empty() ? "" : ", ", name.ending, name.word);
+  for (const formats::FormatInfo& info : formats::all_formats())
+    if (info.plan)
+      endings += fmt::format("{}{} ({})", endings.empty() ? "" : ", ", info.ending, info.word);
   throw ConfigError(fmt::format("the ending of '{}' is not that of a format: expected {}", shown(path), endings));
 }
 
@@ -156,34 +127,10 @@ std::string quality_text(const Metadata& metadata) {
 
 } // namespace
 
-std::vector<std::string> export_paths(const RunOptions& options) {
-  std::vector<std::string> paths;
-  for (const formats::Format format : options.exports)
-    for (const std::string& path : formats::paths_of(format, path_of(format, options.output.file)))
-      paths.push_back(path);
-  return paths;
-}
-
-void check_exports(const RunOptions& options, const comm::Communicator& comm) {
-  refuse_to_replace(export_paths(options), options.output.file.overwrite,
-                    "set output.overwrite = true to replace it, or another output.name", comm);
-}
-
-std::vector<std::string> write_exports(const RunOptions& options, const mesh::DistributedMesh& mesh,
-                                       const formats::Names& names, io::RunFiles* files,
-                                       const comm::Communicator& comm) {
-  std::vector<std::string> paths;
-  for (const formats::Format format : options.exports)
-    for (const std::string& path :
-         formats::write(format, path_of(format, options.output.file), mesh, names, files, comm))
-      paths.push_back(path);
-  return paths;
-}
-
 void convert(const CommandLine& line, io::RunFiles* files, const comm::Communicator& comm, Log& log) {
   const std::string &from = line.files[0], &to = line.files[1];
   const formats::Format format = format_of_output(to);
-  refuse_to_replace(formats::paths_of(format, to), line.overwrite, "add --overwrite to replace it", comm);
+  formats::refuse_to_replace(formats::paths_of(format, to), line.overwrite, "add --overwrite to replace it", comm);
   const Metadata metadata = io::read_metadata(from, {"tags"}, comm);
   const formats::Names names = names_of(metadata);
   const mesh::DistributedMesh mesh = io::read_mesh(from, metadata, comm);

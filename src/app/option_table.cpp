@@ -14,7 +14,19 @@ constexpr Range positive{0, huge, true};
 constexpr Range not_negative{0, huge};
 constexpr Range coordinate{-largest_coordinate, largest_coordinate};
 
-constexpr Option table[] = {
+/// The words of all output formats.
+const char* format_words() {
+  static const std::string words = [] {
+    std::string text;
+    for (const formats::FormatInfo& format : formats::all_formats())
+      text.append(format.word).append(" ");
+    text.pop_back();
+    return text;
+  }();
+  return words.c_str();
+}
+
+const Option table[] = {
     {.section = "domain",
      .key = "x_min",
      .fallback = "auto",
@@ -299,7 +311,7 @@ constexpr Option table[] = {
      .key = "formats",
      .kind = OptionKind::words,
      .fallback = "vtkhdf xdmf",
-     .choices = "vtkhdf xdmf text gmsh gmsh2 medit freefem triangle vtu 2dm fort14 geojson",
+     .choices = format_words(),
      .meaning = "`vtkhdf`: for ParaView and VTK; `xdmf`: for ParaView, FEniCS and PETSc; one file NAME.h5 serves both. "
                 "`text`: the files of TriMe++, in the directory NAME. The others are for other programs; they hold the "
                 "final mesh and the names of its boundary"},

@@ -2,11 +2,10 @@
 // All options of a run, as plain structs: the content of the config file after it was read and checked.
 #pragma once
 
+#include "formats/mesh_series.hpp"
 #include "trime/core/log.hpp"
-#include "trime/formats/exchange.hpp"
 #include "trime/geometry/lattice.hpp"
 #include "trime/geometry/vec2.hpp"
-#include "trime/io/mesh_series.hpp"
 #include "trime/meshing/options.hpp"
 
 #include <array>
@@ -65,11 +64,10 @@ struct RunOptions {
   meshing::MeshOptions mesh;           ///< without the fixed points, which are read when the shape is
   FixedPointsFile fixed_points;
   SizingOptions sizing;
-  int setup_threads = 0;                ///< per rank, while shape and size field are made; 0: chosen from the machine
-  int mesh_threads = 0;                 ///< per rank, from then on; 0: chosen from the machine
-  io::SeriesOptions output;             ///< without the period, which the boundary of the shape knows
-  std::vector<formats::Format> exports; ///< formats of other programs in which the final mesh is written, too
-  bool write = true;                    ///< false: nothing is written
+  int setup_threads = 0;         ///< per rank, while shape and size field are made; 0: chosen from the machine
+  int mesh_threads = 0;          ///< per rank, from then on; 0: chosen from the machine
+  formats::SeriesOptions output; ///< without the names, which the shape knows
+  bool write = true;             ///< false: nothing is written
   CheckpointOptions checkpoint;
   LogLevel log_level = LogLevel::summary;
   int log_interval = 0;

@@ -22,7 +22,6 @@
 #include "io/report_file.hpp"
 #include "polygon/polygon.hpp"
 #include "sites/rules.hpp"
-#include "trime/io/mesh_series.hpp"
 #include "trime/meshing/mesher.hpp"
 
 #include <algorithm>
@@ -61,8 +60,8 @@ void check_share(double points, int ranks) {
   constexpr auto most = static_cast<double>(sites::SiteRules::most_owned);
   if (points / ranks > most)
     throw ConfigError(fmt::format(
-        "about {:.3g} points are too many for {} rank{}: a rank can own at most {:.3g}; start {:.0f} or more", points,
-        ranks, ranks == 1 ? "" : "s", most, std::ceil(points / most)));
+        "about {:.3g} points are too many for {} rank{}: a rank can own at most {:.3g}; start at least {:.0f} ranks",
+        points, ranks, ranks == 1 ? "" : "s", most, std::ceil(points / most)));
 }
 
 /// Bytes at the peak.
@@ -150,12 +149,13 @@ struct Job {
   bool is_run() const { return line.action == Action::mesh; }
 };
 
-io::SeriesOptions series_options(const Job& job, const geometry::Domain& domain) {
-  const geometry::Boundary& boundary = domain.boundary();
-  io::SeriesOptions options = job.options.output;
-  options.file.part_markers = domain.part_markers();
+formats::SeriesOptions series_options(const Job& job, const ShapeInput& input) {
+  const geometry::Boundary& boundary = input.boundary();
+  formats::SeriesOptions options = job.options.output;
+  options.file.part_markers = input.domain().part_markers();
   options.file.run_files = job.files;
-  options.period = {boundary.periods.x, boundary.periods.y};
+  options.names = {
+      boundary.part_names, {job.options.geometry}, {boundary.periods.x, boundary.periods.y}, input.map.crs};
   return options;
 }
 
@@ -211,7 +211,7 @@ public:
         keeper_({job.comm, checkpoint_options(job), job.signals, job.timers, job.log}, job.options.checkpoint,
                 job.line.time_limit, {program_name(), job.options.resolved}),
         saved_(keeper_.find(job.line.restart)), // before directories are made
-        series_(series_options(job, input_.domain()), job.comm), points_(expected_points(job.options, boundary())) {
+        series_(series_options(job, input_), job.comm), points_(expected_points(job.options, boundary())) {
     check_output();
     size_ = [&] {
       const auto timing = job.timers.scope("size field");
@@ -237,7 +237,7 @@ private:
   const ShapeInput input_;
   CheckpointKeeper keeper_;
   const std::optional<meshing::SavedRun> saved_; // where the run goes on
-  io::MeshSeries series_;
+  formats::MeshSeries series_;
   const double points_; // about as many as the mesh will have
   BuiltSize size_;
 };
@@ -246,7 +246,6 @@ void MeshRun::check_output() {
   if (job_.options.write)
     for (const std::string& warning : job_.is_run() ? series_.check(points_) : series_.look(points_))
       job_.log.warning("{}", warning);
-  check_exports(job_.options, job_.comm);
   if (!job_.line.report.empty())
     io::check_report_file(job_.line.report, job_.comm);
 }
@@ -289,12 +288,7 @@ io::WrittenFiles MeshRun::publish(const Provenance& provenance, const meshing::M
                                   const SizeSummary& sizes) {
   const io::Metadata metadata = describe_run(provenance, result, sizes, gather_measurements(job_.timers, job_.comm));
   const auto timing = job_.timers.scope("output");
-  io::WrittenFiles files = series_.write_final({final_retriangulation(result), result.mesh, result.quality, metadata});
-  const formats::Names names{
-      boundary().part_names, {job_.options.geometry}, {boundary().periods.x, boundary().periods.y}, input_.map.crs};
-  for (const std::string& path : write_exports(job_.options, result.mesh, names, job_.files, job_.comm))
-    files.paths.push_back(path);
-  return files;
+  return series_.write_final({final_retriangulation(result), result.mesh, result.quality, metadata});
 }
 
 ExitCode MeshRun::run() {

@@ -72,7 +72,9 @@ void Settings::check_sections(const IniDocument& document, Diagnostics& problems
     const std::string name = section.name.substr(part_prefix.size());
     const bool reserved = std::find(reserved_names.begin(), reserved_names.end(), name) != reserved_names.end();
     if (reserved)
-      problems.add(section.line, fmt::format("'{}' cannot name a part: it has a meaning in 'geometry'", shown(name)));
+      problems.add(
+          section.line,
+          fmt::format("'{}' cannot name a part, because 'geometry' uses this word; choose another name", shown(name)));
     else if (!is_part_name(name))
       problems.add(
           section.line,

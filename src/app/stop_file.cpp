@@ -2,10 +2,9 @@
 #include "app/stop_file.hpp"
 
 #include "app/checkpoint_names.hpp"
-#include "app/convert.hpp"
 #include "comm/agree.hpp"
 #include "core/read_file.hpp"
-#include "io/output_files.hpp"
+#include "formats/output_files.hpp"
 #include "trime/core/error.hpp"
 
 #include <filesystem>
@@ -42,15 +41,15 @@ bool is_input(const std::string& file, const RunOptions& options, const CommandL
 
 bool is_output(const std::string& file, const RunOptions& options, const CommandLine& line) {
   const io::MeshFileOptions& output = options.output.file;
-  for (const std::string& path : export_paths(options))
+  for (const std::string& path : options.output.export_paths())
     if (is_same(file, path))
       return true;
   const fs::path place = place_of(file), folder = place.parent_path();
   const std::string name = place.filename().string();
   return is_same(file, line.report) ||
          (folder == place_of(output.directory) &&
-          (io::is_file_of_run(name, output.name) || checkpoint_slot(name, output.name) > 0)) ||
-         (folder == place_of(output.path("")) && io::is_text_mesh_file(name, output.name));
+          (formats::is_file_of_run(name, output.name) || checkpoint_slot(name, output.name) > 0)) ||
+         (folder == place_of(output.path("")) && formats::is_text_mesh_file(name, output.name));
 }
 
 void check(const std::string& file, const RunOptions& options, const CommandLine& line) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// First layout of the boundary sites of one loop: corners, shells at sharp corners, quantiles of the integral of ds/h.
+// Makes the first layout of the boundary sites of one loop: corners, shells at sharp corners, and quantiles of the
+// integral of ds/h.
 #pragma once
 
 #include "boundary/loop_metric.hpp"
@@ -16,19 +17,19 @@ namespace trime::boundary {
 
 enum class SiteKind : std::int32_t { plain, corner, sharp_corner };
 
-/// A site of one loop, given by its place along the loop. Ranks send it to each other, so no byte is left undefined.
+/// A site of one loop, given by its place along the loop. Ranks exchange it, so all bytes are defined.
 struct LoopSite {
   double t;                ///< coordinate of LoopMetric, in [0, total)
   geometry::Vec2 position; ///< on the unrolled loop
   SiteKind kind;
-  std::int32_t loop = 0; ///< whose number the metric does not know
+  std::int32_t loop = 0; ///< number of the loop, which the metric does not know
 };
 
-/// The role as a site of a junction of two pieces, at the start of one of them.
+/// Returns the role of a site at a junction of two pieces, which is the start of `piece`.
 SiteKind kind_of_junction(const geometry::Loop& loop, std::size_t piece, double corner_angle);
 
-/// @brief The stretches of a loop between its corners, and the sites that belong on them. Ranks may lay out shares of a
-/// loop: together they are the same as all of it. Keeps references. All threads work.
+/// @brief Holds the stretches of a loop between its corners, and makes the sites on them. Ranks may lay out shares of a
+/// loop, which together give all of its sites. Keeps references. Uses all threads.
 class LoopLayout {
 public:
   LoopLayout(const LoopMetric& metric, const geometry::Lattice& lattice, double corner_angle,
@@ -36,9 +37,9 @@ public:
   LoopLayout(LoopLayout&&) noexcept;
   ~LoopLayout();
 
-  /// About what all sites cost to make; that of a plain one is 1.
+  /// Returns about the work of making all sites, where a plain site has the work 1.
   std::int64_t work() const;
-  /// Appends the sites that begin in [first, last) of that work, in order along the loop from some place on.
+  /// Appends the sites that begin in [first, last) of that work, in their order along the loop.
   /// @throws GeometryError if the size is too small for the lattice
   void make(std::int64_t first, std::int64_t last, std::vector<LoopSite>& sites) const;
 
@@ -47,7 +48,7 @@ private:
   std::unique_ptr<const Plan> plan_;
 };
 
-/// All sites of a loop, by rising t. There are at least 3.
+/// Sorts all sites of a loop by rising t. @pre there are at least 3
 void sort_along(std::span<LoopSite> sites);
 
 } // namespace trime::boundary

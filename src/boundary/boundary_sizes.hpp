@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The element size along the curves of a boundary.
+// Gives the element size along the curves of a boundary.
 #pragma once
 
 #include "sizing/lowered_size.hpp"
@@ -12,22 +12,24 @@
 
 namespace trime::boundary {
 
-/// @brief The relative size at places along all loops: the start of each piece, and places half a size apart behind it.
-/// A boundary is laid many times in search of a factor, and a look-up of the field costs more than all else there.
+/// @brief Samples the relative size along all loops: at the start of each piece, and then at distances of half a size.
+/// During the search for a factor, a boundary is laid many times, and evaluating the field would take most of the time.
 /// Immutable, thread-safe.
 class SizeSamples {
 public:
-  /// All threads. @throws GeometryError if the size at a place is not positive and finite, or asks for far too many
+  /// Uses all threads. @throws GeometryError if the size at a place is not positive and finite, or needs far too many
+  /// samples
   SizeSamples(const geometry::Boundary& boundary, const sizing::SizeField& relative, const sizing::ScaledSize& asked);
 
-  /// Are they near enough to each other for sizes with this factor?
+  /// Returns whether the samples are dense enough for sizes with this factor.
   bool serve(double factor) const { return factor >= 0.75 * factor_; }
 
-  /// Where the last look-up in a loop found its place.
+  /// The place of the last look-up in a loop.
   struct Cursor {
     std::size_t index = 0;
   };
-  /// Linear between the samples. O(1) for places in ascending order. @param whole the length of the piece
+  /// Returns the size at a place by linear interpolation. O(1) for places in ascending order. @param whole the length
+  /// of the piece
   double at(std::size_t loop, LocalIndex piece, double along, double whole, Cursor& cursor) const;
 
 private:
@@ -37,28 +39,27 @@ private:
   };
   struct OfLoop {
     std::vector<Sample> samples;
-    std::vector<std::size_t> first; // of each piece, and the end
+    std::vector<std::size_t> first; // first sample of each piece, and the end
   };
   double factor_;
   std::vector<OfLoop> loops_;
 };
 
-/// The size at a place, as it is and as it was asked for before anything lowered it.
+/// The size at a place, and the size asked for before it was lowered.
 struct SizePair {
   double size = 0, asked = 0;
 };
 
-/// @brief Both sizes along a boundary, from the fields themselves or from samples of the relative size. Keeps
-/// references.
+/// @brief Gives both sizes along a boundary, from the fields or from samples of the relative size. Keeps references.
 class BoundarySizes {
 public:
   BoundarySizes(const sizing::SizeField& size, const sizing::SizeField& asked) : size_(size), asked_(asked) {}
 
   struct Sampled {
     const SizeSamples& relative;
-    const sizing::ScaledSize& asked;    ///< of the last stage
-    const sizing::LoweredSize* lowered; ///< the same within limits; null without any
-    double coarsening;                  ///< h of this stage over that of the last
+    const sizing::ScaledSize& asked;    ///< size asked for in the last stage
+    const sizing::LoweredSize* lowered; ///< the same, lowered by limits; null if there are no limits
+    double coarsening;                  ///< h of this stage over h of the last stage
   };
   BoundarySizes(const sizing::SizeField& size, const sizing::SizeField& asked, const Sampled& sampled)
       : size_(size), asked_(asked), sampled_(sampled) {}
@@ -69,7 +70,7 @@ public:
   struct PiecePlace {
     std::size_t loop;
     LocalIndex piece;
-    double along, whole;      ///< arc length from the start of the piece, and of all of it
+    double along, whole;      ///< arc length from the start of the piece, and length of the piece
     geometry::Vec2 canonical; ///< the same place in the container
   };
   /// @throws GeometryError if a size is not positive and finite

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A boundary on which points become corners, one after the other.
+// Turns points on a boundary into corners, one after the other.
 #pragma once
 
 #include "trime/geometry/boundary.hpp"
@@ -13,38 +13,38 @@
 
 namespace trime::boundary {
 
-/// @brief The pieces as they are given, and what points have made of them, in one ring for each loop.
+/// @brief The given pieces, and the parts into which points have divided them, in one ring for each loop.
 ///
-/// A point finds the pieces near it in a tree of those that were given, and in each of these the parts near it by where
-/// they lie along it: F points on M pieces take O((F + M) log(F + M)).
+/// The pieces near a point are found in a tree of the given pieces, and parts of a piece by their place along it. So F
+/// points on M pieces take O((F + M) log(F + M)).
 class CorneredBoundary {
 public:
-  /// @param pieces of `boundary` @param tolerance how far from a curve a point on it may lie
+  /// @param pieces tree of the pieces of `boundary` @param tolerance how far from a curve a point on it may lie
   /// @pre `boundary` and `pieces` outlive it
   CorneredBoundary(const geometry::Boundary& boundary, const geometry::PieceTree& pieces, double tolerance);
 
-  /// @brief The nearest piece of all is divided at p, or its end moved there if that is as near.
-  /// @pre p, or an image of it, lies on a piece that was given; no point before it was as near as the tolerance
+  /// @brief Divides the nearest piece at p, or moves its end to p if the end is equally near.
+  /// @pre p, or an image of it, lies on a given piece; no earlier point is within the tolerance of p
   void add_corner(geometry::Vec2 p);
-  /// The boundary with a corner at each of the points. O(pieces)
+  /// Returns the boundary with a corner at each of the points. O(pieces)
   geometry::Boundary result() const;
-  /// Distances from points to pieces that were computed so far.
+  /// Number of distances from points to pieces that were computed so far.
   std::int64_t distances() const { return distances_; }
 
 private:
-  /// The parts of a given piece by where they begin along it.
+  /// The parts of a given piece, by the place along it where they begin.
   using Parts = std::multimap<double, std::size_t>;
   /// A piece, or a part of one.
   struct Link {
     geometry::Piece piece;
-    std::size_t before, after; // along the loop
-    std::size_t origin;        // the piece that was given
-    Parts::iterator place;     // if that was divided
+    std::size_t before, after; // neighbours along the loop
+    std::size_t origin;        // the given piece
+    Parts::iterator place;     // its part, if the given piece was divided
   };
   struct Nearest {
     double distance;
     std::size_t link;
-    geometry::Vec2 image; // of the point
+    geometry::Vec2 image; // image of the point
   };
 
   void look_near(std::size_t origin, geometry::Vec2 image, Nearest& best);
@@ -56,14 +56,14 @@ private:
   const geometry::Boundary& boundary_;
   const geometry::PieceTree& tree_;
   const double tolerance_;
-  std::vector<geometry::Vec2> images_;           // shifts under which a point may be seen from the container
-  std::vector<const geometry::Piece*> given_;    // loop by loop
-  std::vector<Link> links_;                      // the first ones are those of given_
-  std::unordered_map<std::size_t, Parts> parts_; // of the pieces that were divided
+  std::vector<geometry::Vec2> images_;           // shifts to images of a point that may touch the container
+  std::vector<const geometry::Piece*> given_;    // given pieces, loop by loop
+  std::vector<Link> links_;                      // the first ones belong to given_
+  std::unordered_map<std::size_t, Parts> parts_; // parts of the divided pieces
   std::int64_t distances_ = 0;
 };
 
-/// The shifts under which a point may be seen from the container and next to it, {0, 0} first.
+/// Returns the shifts to the images of a point in the container and next to it, {0, 0} first.
 std::vector<geometry::Vec2> images_of(const geometry::Periods& periods);
 
 } // namespace trime::boundary

@@ -13,13 +13,12 @@
 
 namespace trime::boundary {
 
-/// @param limits places where the size was lowered below `asked`, the size that was asked for
-/// O(sites of the boundary + limits)
+/// @param limits places where the size was lowered below `asked`, the size asked for O(sites of the boundary + limits)
 FeatureReport report_features(const polygon::BoundarySites& boundary, std::span<const sizing::SizeLimit> limits,
                               const sizing::SizeField& asked);
 
-/// @brief Adds what the way from the given boundary to the meshed one took from the shape and added to it.
-/// @param dropped the loops that were left out at its end
+/// @brief Adds how much the changes from the given boundary to the meshed one removed from the shape and added to it.
+/// @param dropped the loops that were left out finally
 /// @param asked as above
 /// Costs and errors as find_loop_fates.
 void report_losses(const geometry::Boundary& given, const geometry::Boundary& meshed,

@@ -10,23 +10,24 @@
 
 namespace trime::boundary {
 
-/// @brief Loops whose perimeter is below `least_perimeter` local sizes are dropped; corners may be left out where
-/// chords then pass no farther from the boundary than `tolerance` local sizes. Corners with arms of two local sizes and
-/// more on both sides, and corners that are asked for (Piece::corner), are always kept. The default keeps everything.
+/// @brief The rule drops loops whose perimeter is below `least_perimeter` local sizes. It leaves out corners where
+/// chords then stay within `tolerance` local sizes of the boundary. It always keeps corners with arms of at least two
+/// local sizes on both sides, and corners that are asked for (Piece::corner). The default keeps everything.
 struct FeatureRule {
   double tolerance = 0;
   double least_perimeter = 0;
 };
 
-/// Signed, counter-clockwise positive; arcs included. O(pieces) @pre the loop does not wind around the container
+/// Returns the signed area of a loop, positive if it is counter-clockwise, with exact arcs. O(pieces) @pre the loop
+/// does not wind around the container
 double enclosed_area(const geometry::Loop& loop);
 
-/// The boundary of what is left. O(pieces)
+/// Returns the boundary without the dropped loops. O(pieces)
 geometry::Boundary boundary_without(const geometry::Boundary& boundary, const polygon::DroppedLoops& dropped);
 
-/// @brief Applies the rule. A loop stays if it winds around the container, has a corner that is asked for, encloses
-/// more than 1 % of the area of the shape, a loop that stays or one of `inside`, and one component always stays.
-/// O(pieces + loops log loops) for loops apart.
+/// @brief Applies the rule. A loop stays if it winds around the container, has a corner that is asked for, or encloses
+/// more than 1 % of the area of the shape, a remaining loop, or a point of `inside`. One component always stays.
+/// O(pieces + loops log loops) for separate loops.
 /// @param inside points of the shape that must remain in it, in lexicographic order
 polygon::DroppedLoops drop_small_loops(const geometry::Boundary& boundary, const sizing::SizeField& size,
                                        double least_perimeter, std::span<const geometry::Vec2> inside = {});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which segments may have a new site in their diametral discs? Grids of cells as large as the segments, one for each
-// power of two of their lengths. Finds candidates only: the exact question is SiteTree's.
+// Finds the segments that may have a new site in their diametral discs, with one grid for each power of two of their
+// lengths. It finds only candidates; SiteTree answers exactly.
 #pragma once
 
 #include "trime/core/types.hpp"
@@ -14,20 +14,20 @@
 
 namespace trime::boundary {
 
-/// O(1) to add a segment; to find those near a site, O(levels + found). 50 to 100 bytes a segment.
+/// Adding a segment takes O(1), and finding the segments near a site O(levels + found). 50 to 100 bytes per segment.
 class SegmentWatch {
 public:
   explicit SegmentWatch(const geometry::Periods& periods) : periods_(periods) {}
 
-  /// The segment `index` from the canonical place `a` to a + along. One that was divided may be added again: what is
-  /// known of its former self only makes it a candidate more often.
+  /// Adds the segment `index` from the canonical place `a` to a + along. A segment that was divided may be added again;
+  /// its old entry only makes it a candidate more often.
   void add(geometry::Vec2 a, geometry::Vec2 along, LocalIndex index);
 
   /// Appends all segments in whose closed diametral disc, or in an image of it, `site` lies, and others near it.
   void find(geometry::Vec2 site, std::vector<LocalIndex>& found) const;
 
 private:
-  /// Cells of one size, 2^(level + 1), for lengths of 2^level and more.
+  /// A segment in the cells of a level. Cells are 2^(level + 1) wide, for lengths of at least 2^level.
   struct WatchedSegment {
     geometry::Vec2 middle;
     LocalIndex index;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The places of a stretch of a loop among which its sites are chosen.
+// Makes the places of a stretch of a loop among which its sites are chosen.
 #pragma once
 
 #include "boundary/loop_metric.hpp"
@@ -13,17 +13,18 @@
 
 namespace trime::boundary {
 
-/// How far chords may pass from the boundary: `share` of the local size as it was asked for.
+/// The largest distance of chords from the boundary: `share` of the local size asked for.
 struct FeatureTolerance {
-  double share;                                          ///< 0: every corner is kept
-  double most = std::numeric_limits<double>::infinity(); ///< a length: a size far above the shape gives no licence
+  double share; ///< 0 if every corner is kept
+  /// Largest distance as a length, for sizes far larger than the shape.
+  double most = std::numeric_limits<double>::infinity();
 
   double at(double asked_size) const { return std::fmin(most, share * asked_size); }
 };
 
-/// @brief Junctions between t0 and t1, and places at most a quarter of the local size apart between them; both ends.
-/// Junctions that lie within a small part of the tolerance of a chord between others are left out (Douglas and Peucker
-/// 1973). O(n log n) for n junctions, at most O(64 n).
+/// @brief Returns both ends, the junctions between t0 and t1, and places in between that are at most a quarter of the
+/// local size apart. Junctions that lie within a small part of the tolerance of a chord between others are left out
+/// (Douglas and Peucker 1973). O(n log n) for n junctions, at most O(64 n).
 std::vector<SitePlace> places_between(const LoopMetric& metric, double t0, double t1, const geometry::Lattice& lattice,
                                       const FeatureTolerance& tolerance);
 

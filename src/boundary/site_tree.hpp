@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// k-d tree of boundary sites: is a diametral disc free of other sites? Sites of a curve are too unevenly spread for
-// plain bins.
+// A k-d tree of boundary sites, which finds out whether a diametral disc contains other sites. Sites of a curve are too
+// unevenly spread for bins.
 #pragma once
 
 #include "trime/core/types.hpp"
@@ -58,7 +58,7 @@ private:
 
   static constexpr std::size_t leaf_size = 8;
   std::vector<Entry> items_;          // the item in the middle of a range splits it
-  std::vector<std::uint8_t> split_y_; // per item: does it split by y?
+  std::vector<std::uint8_t> split_y_; // by item: whether it splits by y
 };
 
 } // namespace trime::boundary

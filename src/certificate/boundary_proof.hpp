@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The part of the certificate that compares the boundary of the mesh with that of the shape: vertices on the curve,
-// chords next to it, cycles of facets as its loops, and the area between them. The areas are sums that do not depend
-// on order, threads and ranks.
+// The part of the certificate that compares the boundary of the mesh with the boundary of the shape: vertices lie on
+// the curve, chords lie near it, cycles of facets are its loops, and the areas agree.
 #pragma once
 
 #include "polygon/polygon.hpp"
@@ -20,17 +19,17 @@ namespace trime::certificate {
 
 __extension__ using Int128 = __int128;
 
-/// Twice an area in squared lattice steps: an integer, also over ranks (in three parts of 40 bits and the rest).
+/// Twice an area in squared lattice steps. It is an integer, which ranks exchange in three parts of 40 bits and a rest.
 struct ExactArea {
   Int128 twice = 0;
 
-  /// Exact. @pre the vertices lie on the lattice
+  /// Adds the exact area of a triangle. @pre the vertices lie on the lattice
   void add_triangle(geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r, const geometry::Lattice& lattice) {
     const Int128 ux = lattice.steps(q.x - p.x), uy = lattice.steps(q.y - p.y);
     const Int128 vx = lattice.steps(r.x - p.x), vy = lattice.steps(r.y - p.y);
     twice += ux * vy - uy * vx;
   }
-  /// Any area, rounded to half a squared step, which is 2^-86 of that of the container or less.
+  /// Adds any area, rounded to half a squared step, which is at most 2^-86 of the area of the container.
   void add(double area, const geometry::Lattice& lattice) {
     twice += static_cast<Int128>(2 * area * lattice.inverse_step() * lattice.inverse_step());
   }
@@ -49,24 +48,26 @@ struct ExactArea {
   }
 };
 
-/// The data that the boundary of a mesh is compared with. All of it is replicated.
+/// The data with which the boundary of a mesh is compared. All of it is replicated.
 struct BoundaryTruth {
-  const geometry::Boundary& shape;     ///< as it was given
-  const geometry::Boundary& meshed;    ///< as it was laid out: with fixed points as corners
-  const polygon::BoundarySites& sites; ///< on `meshed`, the vertices of the mesh's boundary
+  const geometry::Boundary& shape;     ///< the boundary as it was given
+  const geometry::Boundary& meshed;    ///< the boundary as it was laid out: with fixed points as corners
+  const polygon::BoundarySites& sites; ///< vertices of the mesh on `meshed`
   const sizing::SizeField& size;       ///< h of the mesh
-  const sizing::SizeField& asked; ///< the same before it was lowered: chords may leave out corners by shares of this
+  const sizing::SizeField&
+      asked; ///< h before it was lowered: the distance of chords from left-out corners is measured by it
   const geometry::Lattice& lattice;
   double side;           ///< longer side of the container
-  double mesh_area;      ///< of all triangles
-  double coarseness = 1; ///< the h for which the boundary was simplified, over that of the mesh
-  double within = 0.5;   ///< [that h] so far it may have moved
+  double mesh_area;      ///< area of all triangles
+  double coarseness = 1; ///< h for which the boundary was simplified, over h of the mesh
+  double within = 0.5;   ///< [that h] how far simplification may have moved the boundary
 };
 
-/// @brief Nine checks, all from the arrays of the mesh that will be written, the shape, and what it was laid out as.
-/// Each rank proves its share of the sites and of the pieces. Trees over all pieces, 60 bytes each, are on every rank:
-/// O(pieces + (sites + points of the rank) log(pieces) / ranks). Facets: see count_cycles. @note Collective.
-/// @throws what a size field of the user throws, on all ranks together
+/// @brief Makes nine checks from the arrays of the mesh that will be written, the given boundary and the boundary that
+/// was laid out. Each rank checks its share of the sites and of the pieces. Every rank holds trees over all pieces, 60
+/// bytes per piece: O(pieces + (sites + points of the rank) log(pieces) / ranks). For facets see count_cycles. @note
+/// Collective.
+/// @throws the errors of a size field of the user, on all ranks together
 mesh::Checks prove_boundary(const BoundaryTruth& truth, const mesh::DistributedMesh& mesh,
                             const comm::Communicator& comm);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The checks, in the order in which they are made. Each file of checks needs what those before it have passed.
+// The checks, in the order in which they are made. Each group of checks relies on those before it.
 #pragma once
 
 #include "mesh.hpp"
@@ -14,8 +14,8 @@ namespace trime_check {
 
 /// One of the closed curves of the boundary.
 struct Loop {
-  std::vector<std::size_t> facets; ///< in the order in which they follow each other
-  std::string kind;                ///< around a component (outer), around a hole, or a band around a periodic container
+  std::vector<std::size_t> facets; ///< numbers of the facets, in the order along the loop
+  std::string kind;                ///< "outer" (around a component), "hole", or "band" (around a periodic container)
 };
 
 /// Counts to compare with the numbers in the file.
@@ -23,27 +23,27 @@ struct Counted {
   std::int64_t edges = 0, loops = 0, clockwise = 0, not_delaunay = 0, components = 0;
   std::int64_t euler_characteristic = 0, unused = 0, corners = 0;
   double area = 0;
-  std::vector<Loop> boundary; ///< empty if the facets are no closed simple loops
+  std::vector<Loop> boundary; ///< empty if the facets are not closed simple loops
 };
 
-/// Ids in range and in order, coordinates finite, views equal to the arrays, the hash. False: ids or coordinates are
-/// such that nothing more can be said.
+/// Checks that ids are in range and in order, that coordinates are finite, that views equal the arrays, and the hash.
+/// Returns false if ids or coordinates are so wrong that nothing more can be checked.
 bool check_arrays(const StoredFile& file, const Mesh& mesh, Report& report);
 
-/// Orientation, edges, Delaunay, loops of facets, Euler characteristic, area, tags.
+/// Checks orientation, edges, Delaunay property, loops of facets, Euler characteristic, area and tags.
 Counted check_surface(const StoredFile& file, const Mesh& mesh, Report& report);
 
-/// Sizes of points and facets.
+/// Checks the sizes of points and facets.
 void check_sizes(const StoredFile& file, const Mesh& mesh, Report& report);
 
 /// Checks the tables and attributes of the mesh: labels, kinds and names of loops, counts, format.
 void check_tables(const StoredFile& file, const Mesh& mesh, const Counted& counted, Report& report);
 
-/// Alpha, beta, sizes, the quality summary, and the certificate as it is stored.
+/// Checks alpha, beta, sizes, the quality summary, and the stored certificate.
 void check_summary(const StoredFile& file, const Mesh& mesh, const Counted& counted, Report& report);
 
-/// @brief Corners, fixed points and boundary vertices against the shape of a config.
-/// @param config path of a config file; empty: the text that is stored in the mesh file
+/// @brief Checks corners, fixed points and boundary vertices against the shape of a config.
+/// @param config path of a config file; if empty, the config that is stored in the mesh file is used
 void check_shape(const StoredFile& file, const Mesh& mesh, const std::string& config, Report& report);
 
 } // namespace trime_check

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sections and keys of a config, files of points, and a region as a tree of unions, intersections and differences of
-// parts.
+// Reads sections and keys of a config, and files of points.
 #pragma once
 
 #include "mesh.hpp"
@@ -17,16 +16,16 @@ namespace trime_check {
 /// `[section] key = value`; a comment starts with `;` or `#` at the start of a line or after a blank.
 class ConfigText {
 public:
-  /// @param folder what relative paths are relative to
+  /// @param folder the folder to which relative paths refer
   ConfigText(const std::string& text, std::string folder);
 
-  /// Names of the parts, sections [shape.NAME], in their order.
+  /// Names of the parts, which are the sections [shape.NAME], in their order.
   const std::vector<std::string>& parts() const { return parts_; }
-  /// The value; empty if the key is not there or its value is `auto` or `none`.
+  /// Returns the value; empty if the key is missing or its value is `auto` or `none`.
   std::string value(const std::string& section, const std::string& key) const;
   std::optional<double> number(const std::string& section, const std::string& key) const;
   bool is_true(const std::string& section, const std::string& key) const { return value(section, key) == "true"; }
-  /// @throws Failure (exit 2) if it is not there or no two numbers
+  /// @throws Failure (exit 2) if the value is missing or is not two numbers
   Point point(const std::string& section, const std::string& key) const;
   std::string path(const std::string& section, const std::string& key) const;
 
@@ -36,47 +35,47 @@ private:
   std::string folder_;
 };
 
-/// The text of a file, unless it cannot be read.
+/// Returns the text of a file, or nothing if it cannot be read.
 std::optional<std::string> read_text(const std::string& path);
 
 using Ring = std::vector<Point>;
-/// @brief Rings of a file of `x y` lines: a blank line or one with `>` ends a ring, `#` starts a comment, a first line
-/// without numbers is left out.
+/// @brief Returns the rings of a file of `x y` lines. A blank line or one with `>` ends a ring, `#` starts a comment,
+/// and a first line without numbers is skipped.
 std::vector<Ring> read_rings(const std::string& text);
 
 /// Numbers of parts by their names.
 using PartNumbers = std::unordered_map<std::string, std::size_t>;
 
-/// @brief Says whether a place lies in the region that is in some of the parts. A change of one part costs as much as
-/// the tree is deep.
+/// @brief Says whether a place that lies in some of the parts lies in the region. Changing one part costs O(depth of
+/// the tree).
 class Region {
 public:
   static constexpr std::size_t none = ~std::size_t{0};
   enum class Kind { part, unite, intersect, subtract };
   struct Node {
     Kind kind = Kind::part;
-    std::size_t part = none;           ///< of a leaf
-    std::size_t parent = none;         ///< behind all its children
-    bool is_first = false;             ///< of the children of its parent
-    std::size_t children = 0, set = 0; ///< set: of the children, those that hold; of a leaf 1 or 0
+    std::size_t part = none;           ///< part of a leaf
+    std::size_t parent = none;         ///< comes after all its children
+    bool is_first = false;             ///< first child of its parent
+    std::size_t children = 0, set = 0; ///< set counts the children that contain the place; for a leaf it is 1 or 0
     bool first_is_set = false;
   };
 
-  /// @throws Failure (exit 2) if the text is no region of these parts
+  /// @throws Failure (exit 2) if the text is not a region of these parts
   Region(const std::string& text, const PartNumbers& parts);
 
-  /// The place is in this part or out of it. At first it is in none.
+  /// Sets whether the place is in this part. At first it is in no part.
   void set(std::size_t part, bool inside);
   bool uses(std::size_t part) const { return !leaves_[part].empty(); }
   bool contains() const { return holds(nodes_.back()); }
-  /// Children before their parents; the last one is the root.
+  /// The nodes: children come before their parents, and the last node is the root.
   const std::vector<Node>& nodes() const { return nodes_; }
 
 private:
   static bool holds(const Node& node);
 
   std::vector<Node> nodes_;
-  std::vector<std::vector<std::size_t>> leaves_; // of each part
+  std::vector<std::vector<std::size_t>> leaves_; // leaves of each part
 };
 
 } // namespace trime_check

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Is the mesh all of the shape of a config, and nothing else?
+// Checks that the mesh covers the shape of a config, and nothing else.
 #pragma once
 
 #include "report.hpp"
@@ -9,7 +9,7 @@
 
 namespace trime_check {
 
-/// A loop of the shape that is not bit for bit as it was given: all of it lies within half its length of a place.
+/// A loop of the shape that was changed. All of it lies within half of its length from a place.
 struct ChangedLoop {
   Point place;
   double length = 0;
@@ -17,13 +17,13 @@ struct ChangedLoop {
 
 /// How the shape was simplified before it was meshed.
 struct Changes {
-  bool are_known = true; ///< false: the file is a step of a run, which does not say
+  bool are_known = true; ///< false if the file is a step of a run, which does not store the changes
   std::vector<ChangedLoop> loops;
-  double stray = 0; ///< [h asked for] how far the boundary may lie from the curves, chords included
+  double stray = 0; ///< [h asked for] largest distance of the boundary, chords included, from the curves
 };
 
-/// @brief Triangles outside of the shape, curves around it without facets, places of it without a triangle.
-/// n log n in triangles, facets and vertices of curves.
+/// @brief Finds triangles outside the shape, curves around it without facets, and places in it without a triangle. O(n
+/// log n) for n triangles, facets and vertices of curves.
 /// @pre all parts of the region have curves
 void check_cover(const Shape& shape, const Mesh& mesh, const Changes& changes, Report& report);
 

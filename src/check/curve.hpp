@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The exact curves of the parts of a shape: distances from them, insides, corners, samples.
+// The exact curves of the parts of a shape, with their distances, insides, corners and samples.
 #pragma once
 
 #include "config_text.hpp"
@@ -13,10 +13,10 @@ struct Box {
   Point min, max;
 };
 
-/// The middle of a piece of a curve, and a vector of length 1 across it.
+/// The middle of a piece of a curve, and a unit vector perpendicular to the curve.
 struct CurveSample {
   Point place, normal;
-  double length = 0; ///< of the piece
+  double length = 0; ///< length of the piece
 };
 
 /// The curve of one part of a shape.
@@ -29,19 +29,19 @@ public:
   /// Returns the vertices that turn by more than this number of degrees.
   virtual std::vector<Point> corners(double degrees) const = 0;
   virtual double length() const = 0;
-  /// Pieces no longer than `spacing`, none across a vertex.
+  /// Returns samples of pieces that are no longer than `spacing` and do not cross a vertex.
   virtual std::vector<CurveSample> samples(double spacing) const = 0;
 };
 
-/// The box of all vertices.
+/// Returns the box of all vertices.
 Box box_of(const std::vector<Ring>& rings);
-/// The corners of a box, as a ring.
+/// Returns the corners of a box as a ring.
 std::vector<Ring> rectangle(const Box& box);
 
 std::unique_ptr<Curve> make_circle(Point center, double radius);
-/// Closed rings of straight sides, inside by even-odd.
+/// Makes the curve of closed rings of straight sides; the even-odd rule decides what is inside.
 std::unique_ptr<Curve> make_polygon(std::vector<Ring> rings);
-/// The sides of the container that are not periodic.
+/// Makes the curve of the sides of the container that are not periodic.
 std::unique_ptr<Curve> make_container(const Box& box, const Periods& periods);
 
 } // namespace trime_check

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exact arithmetic of other libraries: predicates of CGAL, integers of Boost.
+// Exact arithmetic by other libraries: predicates of CGAL and integers of Boost.
 #pragma once
 
 #include "mesh.hpp"
@@ -10,22 +10,23 @@
 
 namespace trime_check {
 
-/// Is a, b, c a left turn? Exact.
+/// Returns whether a, b, c is a left turn. Exact.
 bool is_left_turn(Point a, Point b, Point c);
-/// Does d lie inside the circle through a, b, c, a left turn? On the circle is outside. Exact.
+/// Returns whether d lies inside the circle through a, b, c. A point on the circle is outside. Exact. @pre a, b, c is a
+/// left turn
 bool is_inside_circle(Point a, Point b, Point c, Point d);
 
 using Integer = boost::multiprecision::cpp_int;
 
-/// @brief Coordinates as integers: multiples of the largest common power of two.
+/// @brief Represents coordinates by integers, as multiples of their largest common power of two.
 class IntegerPlane {
 public:
-  /// @pre all are finite
+  /// @pre all coordinates are finite
   explicit IntegerPlane(const Mesh& mesh);
-  /// Twice the signed area of the triangle a, b, c, in squared units. Exact.
+  /// Returns twice the signed area of the triangle a, b, c in squared units. Exact.
   Integer twice_area(Point a, Point b, Point c) const;
   Integer cross(Point u, Point v) const;
-  /// An area in the units of the file.
+  /// Returns an area in the units of the file.
   double area(const Integer& twice) const;
 
 private:

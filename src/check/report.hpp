@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Prints the report: one line per check.
+// Prints the report with one line per check.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace trime_check {
 
-/// Exit codes of the program; those of trime_mpi where both have them.
+/// Exit codes of trime_check, with the numbers of trime_mpi where both have them.
 enum class ExitCode : int { sound = 0, internal_error = 1, usage = 2, file = 4, damaged = 5 };
 
 /// An error that ends the program before it can judge anything.
@@ -22,12 +22,12 @@ private:
   ExitCode code_;
 };
 
-/// How often something is wrong, and where it is wrong first or worst.
+/// How often something is wrong, and the first or the worst place.
 struct Tally {
   std::int64_t count = 0;
   std::string place;
 
-  /// @param where makes the place; called once only
+  /// @param where returns the place; called only once
   template <class Where>
   void note(const Where& where) {
     if (count++ == 0)
@@ -35,18 +35,18 @@ struct Tally {
   }
 };
 
-/// The checks in the order in which they were made.
+/// Collects the checks in the order in which they were made.
 class Report {
 public:
-  /// @param meaning says in words what was compared
+  /// @param meaning describes in words what was compared
   void add(const std::string& name, bool passed, const std::string& expected, const std::string& found,
            const std::string& meaning, const std::string& place = "");
-  /// Expected is that nothing is counted.
+  /// Adds a check that expects a count of zero.
   void none(const std::string& name, const Tally& tally, const std::string& meaning);
-  /// Two numbers that must be equal.
+  /// Adds a check that two numbers are equal.
   void equal(const std::string& name, std::int64_t expected, std::int64_t found, const std::string& meaning,
              const std::string& place = "");
-  /// Notes what could not be checked, and why. It is not a failure.
+  /// Notes what could not be checked, and why. This is not a failure.
   void skip(const std::string& name, const std::string& reason);
 
   std::string text() const;

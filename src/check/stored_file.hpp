@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads a mesh file by the serial functions of HDF5.
+// Reads a mesh file with the serial functions of HDF5.
 #pragma once
 
 #include "mesh.hpp"
@@ -12,17 +12,19 @@
 
 namespace trime_check {
 
-/// @brief An open file. Names are paths from its root.
+/// @brief An open mesh file. Names are paths from its root.
 class StoredFile {
 public:
-  /// @throws Failure (exit 4) if there is no such file, it is no HDF5 file, cut off, or no mesh of trime_mpi
+  /// @throws Failure (exit 4) if the file does not exist, is not an HDF5 file, is cut off, or is not a mesh of
+  /// trime_mpi
   explicit StoredFile(const std::string& path);
   ~StoredFile();
   StoredFile(const StoredFile&) = delete;
   StoredFile& operator=(const StoredFile&) = delete;
 
-  /// @brief The values of an array if its type and shape are these; else one line in `wrong`, and nothing.
-  /// @param type "float64", "int64" and the like  @param shape -1: any extent
+  /// @brief Returns the values of an array if it has this type and shape. Otherwise adds to `wrong` and returns
+  /// nothing.
+  /// @param type "float64", "int64" and the like  @param shape -1 allows any extent
   template <class T>
   std::vector<T> array(const std::string& name, const std::string& type, std::vector<std::int64_t> shape,
                        Tally& wrong) const;
@@ -33,7 +35,7 @@ public:
   std::vector<double> numbers(const std::string& object, const std::string& attribute) const;
   std::optional<std::uint64_t> hash(const std::string& object, const std::string& attribute) const;
   std::optional<std::string> text_attribute(const std::string& object, const std::string& attribute) const;
-  /// Returns a text that is a dataset; empty if it is missing.
+  /// Returns the text of a dataset; empty if it is missing.
   std::string text(const std::string& name) const;
   /// Return columns of a table; empty if the column is missing or has another type.
   std::vector<double> column(const std::string& name) const;

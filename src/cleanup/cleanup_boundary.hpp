@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The boundary during the clean-up: each rank knows the places of its sites, and all ranks learn the edits at the end.
+// The boundary during the clean-up. Each rank knows the places of the sites that it owns, and all ranks receive the
+// edits at the end.
 #pragma once
 
 #include "cleanup/patch_data.hpp"
@@ -14,12 +15,12 @@
 
 namespace trime::cleanup {
 
-/// @brief The sites on the boundary as they were at the beginning, the same on all ranks, and what has become of those
-/// that this rank owns. What it does not own it may know by an older place.
+/// @brief The sites on the boundary at the beginning, which are the same on all ranks, and the present places of those
+/// that this rank owns. For sites of other ranks it may have older places.
 class CleanupBoundary {
 public:
-  /// @brief Collective, throws on all ranks together if the size field does. References must outlive the object.
-  /// @param tolerance in `size`: how far chords may pass from corners that they leave out; 0: they may leave out none
+  /// @brief Collective. Throws on all ranks together if the size field throws. The arguments must outlive the object.
+  /// @param tolerance [size] largest distance of a chord from corners that it leaves out; 0: it may leave out none
   CleanupBoundary(const comm::Communicator& comm, const geometry::Boundary& curves, const polygon::BoundarySites& sites,
                   const sizing::SizeField& size, double tolerance);
 
@@ -28,27 +29,27 @@ public:
 
   /// Returns the name of an owned site.
   BoundaryPlace place(BoundaryName site) const;
-  /// BoundaryPlace::tolerance at a place. Throws if the size field does.
+  /// Returns BoundaryPlace::tolerance at a place. Throws if the size field throws.
   double tolerance(geometry::Vec2 p) const { return tolerance_ > 0 ? tolerance_ * size_.size(p) : 0; }
 
-  /// An owned site has come to a new place on its loop. @pre a link of it follows
+  /// Notes a new place of an owned site on its loop. @pre a link of the site follows
   void set_place(BoundaryName site, const SiteEdit& edit);
   void set_next(BoundaryName site, BoundaryName next);
-  /// The site has gone, or another rank owns it now.
+  /// Forgets a site that is removed or that another rank owns now.
   void forget(BoundaryName site) { known_.erase(site); }
 
-  /// Notes edits of the own patches of a round (0, 1, ...), for `finish`.
+  /// Notes edits of this rank's patches of a round (0, 1, ...), for `finish`.
   void note(std::span<const SiteEdit> edits, int round);
-  /// @brief Sends all edits to all ranks. @return the sites on the boundary after them; nothing if there were no edits.
-  /// Collective: O(edits on the boundary of all ranks), and passes over all its sites if there were any.
+  /// @brief Sends all edits to all ranks. Collective. O(edits on the boundary of all ranks); if there are any, also
+  /// O(sites on the boundary). @return the sites on the boundary after the edits; nothing if there were no edits
   std::optional<polygon::BoundarySites> finish();
-  /// Has `finish` found edits that may have changed the indices?
+  /// Returns whether `finish` has found edits that may have changed the indices.
   bool has_new_indices() const { return !new_index_.empty(); }
-  /// The index of a site after `finish`. @pre it is still there
+  /// Returns the index of a site after `finish`. @pre the site still exists
   LocalIndex index(BoundaryName site) const;
 
 private:
-  struct Edit { // of the boundary
+  struct Edit { // an edit of the boundary
     std::int32_t round;
     polygon::EditKind kind;
     BoundaryName site, made; // see SiteEdit
@@ -63,12 +64,12 @@ private:
   const sizing::SizeField& size_;
   double tolerance_;
   polygon::BoundaryCurve curve_;
-  std::vector<LocalIndex> loops_;                         // by index at the beginning
+  std::vector<LocalIndex> loops_;                         // loop by index at the beginning
   std::vector<double> tolerances_;                        // by index at the beginning
-  std::unordered_map<BoundaryName, BoundaryPlace> known_; // sites that are new or have changed
-  std::vector<Edit> edits_;                               // of the own patches, by round
-  std::unordered_map<BoundaryName, LocalIndex> made_;     // index in the chain of sites that are new
-  std::vector<LocalIndex> new_index_;                     // by index in the chain; empty: all are as they were
+  std::unordered_map<BoundaryName, BoundaryPlace> known_; // places of sites that are new or have changed
+  std::vector<Edit> edits_;                               // edits of this rank's patches, by round
+  std::unordered_map<BoundaryName, LocalIndex> made_;     // index in the chain of new sites
+  std::vector<LocalIndex> new_index_;                     // by index in the chain; empty if no index has changed
 };
 
 } // namespace trime::cleanup

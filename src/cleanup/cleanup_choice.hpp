@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which patches of a round are tried: a set of places that keep their distances, the same for any partition.
+// Chooses the patches that are tried in a round: places that are far enough apart. The choice is the same for any
+// partition.
 #pragma once
 
 #include "cleanup/cleanup_sites.hpp"
@@ -15,7 +16,7 @@ namespace trime::cleanup {
 struct Contender {
   geometry::Vec2 place; ///< canonical
   double separation;    ///< no other contender may be chosen within this distance
-  std::uint64_t order;  ///< the lower one comes first; then the place decides
+  std::uint64_t order;  ///< the lower number comes first; the place decides between equal numbers
 };
 
 /// A contender that was chosen, by its number among those of its rank.
@@ -24,19 +25,21 @@ struct ChosenContender {
   std::int32_t rank, number;
 };
 
-/// The knowledge of a rank about a choice.
+/// The result of a choice on one rank.
 struct Choice {
-  std::vector<ChosenContender> own;  ///< by number
-  std::vector<ChosenContender> near; ///< of other ranks, whose separation reaches to tiles of this one; by rank, number
-  std::vector<int> partners; ///< ranks that `near` comes from or `own` reaches to: they are each other's partners
+  std::vector<ChosenContender> own; ///< by number
+  std::vector<ChosenContender>
+      near; ///< contenders of other ranks whose separation reaches tiles of this one; by rank and number
+  std::vector<int>
+      partners; ///< ranks from which `near` comes, and ranks whose tiles `own` reaches; the relation is symmetric
   bool is_whole =
-      true; ///< false: an own contender reaches to a rank that is no neighbour, and the choice is worth nothing
+      true; ///< false if a contender of this rank reaches a rank that is not a neighbour; then the choice is invalid
 };
 
-/// @brief Chooses a set of contenders of all ranks, with no two of them within the larger of their separations, as
-/// large as a few passes make it (Luby 1986). In each pass a contender that is the first of its surroundings is chosen,
-/// and those near it are excluded. All ranks take part; each exchanges one message with its neighbours, and more only
-/// where contenders reach to each other's tiles.
+/// @brief Chooses contenders of all ranks so that no two of them are within the larger of their separations (Luby
+/// 1986). In each of a few passes, a contender is chosen if it comes before all others around it, and those near it are
+/// excluded. All ranks take part; each exchanges one message with its neighbours, and more only where contenders reach
+/// tiles of other ranks.
 Choice choose_apart(const comm::Communicator& comm, const comm::Neighbours& neighbours, const CleanupSites& sites,
                     const geometry::Periods& periods, std::span<const Contender> contenders);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The rounds of the clean-up over all ranks; see cleanup.hpp.
+// Runs the rounds of the clean-up over all ranks; see cleanup.hpp.
 #pragma once
 
 #include "cleanup/cleanup.hpp"
@@ -21,33 +21,33 @@
 
 namespace trime::cleanup {
 
-/// @brief Chooses patches, has them tried, and sends the results to all owners of sites. The state stays as it is until
-/// finish. All calls are collective.
+/// @brief Chooses patches, tries them on all ranks, and sends the results to the owners of the sites. Does not change
+/// the stage before `finish`. All calls are collective.
 ///
 /// In a round ranks exchange messages with their neighbours, and more if they have patches near each other's tiles. One
 /// reduction counts the patches; if some ranks have more than their share, these are distributed. Another reduction
-/// counts new sites and finds out whether any rank has an error. An error waits for that reduction: until then its rank
-/// takes part in all messages.
+/// counts new sites and finds out whether any rank has an error. A rank with an error takes part in all messages until
+/// that reduction.
 class CleanupRounds {
 public:
-  /// @brief References must outlive the object.
-  /// @param candidates the own sites with bad triangles @pre sizes of the owned sites are known
+  /// @brief The arguments must outlive the object.
+  /// @param candidates the sites of this rank with bad triangles @pre sizes of the owned sites are known
   CleanupRounds(const sites::Stage& stage, const geometry::Boundary& meshed, const geometry::Lattice& lattice,
                 const CleanupOptions& options, std::span<const Candidate> candidates);
 
-  /// Rounds until no candidate is left for this stage (1, 2, ...), at most CleanupRules::most_rounds.
+  /// Runs rounds until no candidate is left for this stage (1, 2, ...), at most CleanupRules::most_rounds.
   void run_stage(int stage);
-  /// Counts of all rounds until now.
+  /// Returns the counts of all rounds so far.
   CleanupCounts counts() const;
-  /// Carries all edits over to the state, the polygon and the guard of the stage. @param builder of its stars
+  /// Applies all edits to the state, the polygon and the guard of the stage. @param builder the builder of its stars
   void finish(sites::Stage& stage, const delaunay::StarBuilder& builder);
 
 private:
-  /// The own patches of a round.
+  /// The patches of this rank in a round.
   struct Attempt {
     Choice choice;
-    std::vector<PatchResult> results; // of the own ones that were chosen
-    std::vector<sites::Disc> crowds;  // around own ones that hold too many sites
+    std::vector<PatchResult> results; // results of the chosen patches
+    std::vector<sites::Disc> crowds;  // discs around patches that hold too many sites
     std::optional<Error> error;
   };
   enum class Outcome { done, nothing_left, neighbours_missing };
@@ -80,13 +80,13 @@ private:
   CleanupLimits limits_;
   CleanupBoundary boundary_;
   CleanupSites sites_;
-  CleanupCandidates candidates_; // owned sites
+  CleanupCandidates candidates_; // candidates among the owned sites
   comm::Neighbours neighbours_;
   PerThread<std::unique_ptr<PatchOptimizer>> optimizers_;
-  CleanupCounts counts_; // of the own patches
+  CleanupCounts counts_; // counts of the patches of this rank
   int round_ = 0;
-  int stage_ = 1;          // above the first, places that are bad for this mesh are tried once more
-  double again_alpha_ = 0; // that is above this
+  int stage_ = 1;          // in stages above the first, the worst places of this mesh are tried once more
+  double again_alpha_ = 0; // alpha above which they are tried once more
 };
 
 } // namespace trime::cleanup

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sites while the clean-up edits some: those of the state, and what has become of them since.
+// The sites during the clean-up: those of the state, with the edits since the beginning.
 #pragma once
 
 #include "cleanup/cleanup_boundary.hpp"
@@ -12,17 +12,17 @@
 
 namespace trime::cleanup {
 
-/// The sites that were read in a disc: all of them, or all in a smaller disc around the same place.
+/// All sites in a disc, or in a smaller disc around the same place.
 struct Surroundings {
-  /// Returns the radius of the disc that is read, after this number of reductions, with the same bits on all ranks.
+  /// Returns the radius after this number of narrowings, with the same bits on all ranks.
   static double radius(double widest, int narrowings) {
     for (int k = 0; k < narrowings; ++k)
       widest *= CleanupRules::narrowing_factor;
     return widest;
   }
 
-  int narrowings = 0; ///< above the limit: even the narrowest disc holds too many, and none of them are listed
-  std::vector<PatchSite> sites; ///< at the images that lie there, in no particular order
+  int narrowings = 0; ///< above the limit if even the narrowest disc holds too many sites; then none is listed
+  std::vector<PatchSite> sites; ///< at their images in the disc, in no particular order
   bool is_crowded() const { return narrowings > CleanupRules::most_narrowings; }
 };
 
@@ -32,36 +32,39 @@ struct PatchDisc {
   std::int32_t rank, number;
 };
 
-/// @brief Owned sites of a state that stays as it is: which are still in place, and those that have come since. Edits
-/// cost what they touch; the state learns of them at the end. Sites belong to the owner of the tile they lie in.
+/// @brief The owned sites of a state that does not change meanwhile: which of them are still in place, and which were
+/// added. The cost of an edit grows only with what it touches; the state gets all edits at the end. A site belongs to
+/// the owner of the tile in which it lies.
 class CleanupSites {
 public:
-  /// References must outlive the object. @pre sizes of the owned sites are known
+  /// The arguments must outlive the object. @pre sizes of the owned sites are known
   CleanupSites(const sites::SiteState& state, CleanupBoundary& boundary);
 
-  /// The other ranks with tiles that a disc meets, ascending. @pre in a periodic container: the radius below the period
+  /// Returns the other ranks with tiles that a disc meets, in ascending order. @pre in a periodic container, the radius
+  /// is below the period
   std::vector<int> ranks_near(const sites::Disc& disc) const;
   int owner(geometry::Vec2 p) const { return state_.partition().owner(state_.grid().place(p).tile); }
 
-  /// @brief All sites in each disc or, where these are more than `most`, in the largest of its narrowings that holds no
-  /// more: the same on any number of ranks. Each rank looks at O(most) sites a disc. The partners exchange a message.
-  /// @param own by number @param near of other ranks: those that meet tiles of this one
-  /// @param partners ranks that `near` comes from, and all those with tiles that own discs meet; these have this rank
-  ///        among their partners, too
+  /// @brief Returns all sites in each disc or, if these are more than `most`, in the largest of the narrowed discs that
+  /// holds no more. The result is the same on any number of ranks. Each rank examines O(most) sites per disc. Partners
+  /// exchange a message.
+  /// @param own discs of this rank, by number @param near discs of other ranks that meet tiles of this rank
+  /// @param partners ranks from which `near` comes, and ranks with tiles that `own` meets; these have this rank among
+  /// their partners
   std::vector<Surroundings> around(std::span<const PatchDisc> own, std::span<const PatchDisc> near,
                                    std::span<const int> partners, std::size_t most) const;
 
-  /// Carries out edits in canonical places: what concerns the owned sites. Then the links.
+  /// Applies edits at canonical places, as far as they concern owned sites, and then the links.
   void apply(std::span<const SiteEdit> edits, std::span<const BoundaryLink> links);
 
-  /// Is it known that nothing helps at an owned site?
+  /// Sets whether it is known that nothing helps at an owned site.
   void set_rest(geometry::Vec2 p, bool rests);
 
-  /// @brief Nothing helps at the owned sites of a disc. O(those sites).
+  /// @brief Notes that nothing helps at the owned sites of a disc. O(these sites).
   /// @return their canonical places
   std::vector<geometry::Vec2> let_rest(const sites::Disc& disc);
 
-  /// Carries all edits over to the state: SiteState::edit_sites. Collective. @pre CleanupBoundary::finish
+  /// Applies all edits to the state by SiteState::edit_sites. Collective. @pre CleanupBoundary::finish was called
   void finish(sites::SiteState& state, const delaunay::StarBuilder& builder) const;
 
 private:
@@ -93,7 +96,7 @@ private:
   const sites::SiteState& state_;
   CleanupBoundary& boundary_;
   std::vector<SiteStatus> status_;        // by owned site
-  std::vector<std::vector<Added>> added_; // by owned tile
+  std::vector<std::vector<Added>> added_; // added sites by owned tile
 };
 
 } // namespace trime::cleanup

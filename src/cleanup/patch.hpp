@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The triangulation around a bad triangle: which sites there are, which of them may take part, what is known of the
-// vertices, and how good the triangles are.
+// The triangulation around a bad triangle: its sites, which of them may take part, data of its vertices, and the
+// quality of its triangles.
 #pragma once
 
 #include "cleanup/patch_data.hpp"
@@ -23,21 +23,21 @@ namespace trime::cleanup {
 /// The vertices of a triangle, counter-clockwise.
 using Corners = std::array<LocalIndex, 3>;
 
-/// Role of a vertex. Scored: it is held, but its triangles count.
+/// The role of a vertex. A scored vertex is held, but its triangles count.
 enum class VertexRole : std::uint8_t { gone, held, scored, free };
 
-/// A vertex on the boundary: its place there, and its neighbours along the loop.
+/// A vertex on the boundary, with its place and its neighbours along the loop.
 struct BoundaryVertex {
-  BoundaryName site = mesh::free_site; ///< its name; of a new one, that of the last old one before it; -1: inside
-  LocalIndex previous = -1, next = -1; ///< -1 beyond the patch
+  BoundaryName site =
+      mesh::free_site; ///< its name; for a new site, the name of the last old site before it; -1 if it lies inside
+  LocalIndex previous = -1, next = -1; ///< vertices; -1 if they lie beyond the patch
   LocalIndex loop = -1;
   double arc = 0;
   double tolerance = 0; ///< see BoundaryPlace
-  bool changed = false; ///< the chord to the next is not what it was
+  bool changed = false; ///< the chord to the next vertex has changed
 };
 
-/// A measure of bad triangles: the sum over them of (alpha - 1)^2, with more weight for bad ones, and the largest
-/// alpha.
+/// A measure of triangles: the sum of (alpha - 1)^2, in which bad triangles have more weight, and the largest alpha.
 struct AlphaScore {
   double sum = 0, max = 1;
 
@@ -53,18 +53,19 @@ struct BadPlace {
   Corners corners;
   geometry::Vec2 middle;
   double alpha;
-  double size; ///< h in the middle
+  double size; ///< h in the middle of the triangle
 };
 
-/// @brief A triangulation and what is known of its vertices. Copies are how trials are taken back.
+/// @brief A triangulation with data of its vertices. A trial works on a copy of the patch, which is dropped if it does
+/// not help.
 struct Patch {
   Patch(const geometry::Lattice& lattice, const geometry::Periods& periods) : mesh(lattice, periods) {}
 
-  /// Empties it: only the frame is left. @param size h that the vertices of the frame are given
+  /// Removes everything except the frame. @param size h at the vertices of the frame
   void start(geometry::Vec2 center, double half_width, double size);
   /// @brief Adds a vertex to the triangulation. @return its index, or -1 if one lies there already
   LocalIndex add(geometry::Vec2 p, double h, const BoundaryVertex& on_boundary, VertexRole its_role);
-  /// Notes what is known of vertex v, the last one of the triangulation.
+  /// Sets the data of vertex v, the last one of the triangulation.
   void append(LocalIndex v, double h, const BoundaryVertex& on_boundary, VertexRole its_role);
 
   bool is_gone(LocalIndex v) const { return role[at(v)] == VertexRole::gone; }
@@ -73,27 +74,27 @@ struct Patch {
   geometry::Segment chord(LocalIndex v) const { return {mesh.position(v), mesh.position(boundary[at(v)].next)}; }
   /// Returns the number of chords of the boundary that are not edges.
   LocalIndex missing_chords() const;
-  /// A chord in whose closed diametral disc p lies.
+  /// Returns a chord in whose closed diametral disc p lies, if there is one.
   std::optional<geometry::Segment> entered_disc(geometry::Vec2 p) const;
 
-  /// Does a triangle lie inside the shape and have a vertex whose triangles count?
+  /// Returns whether a triangle lies inside the shape and has a vertex whose triangles count.
   bool counts(const PatchMesh::Triangle& triangle) const {
     return may_count(triangle) && (has_inner_vertex(triangle) || lies_inside(triangle));
   }
-  /// Are all vertices of a triangle sites, one of them with triangles that count?
+  /// Returns whether all vertices of a triangle are sites, one of them with triangles that count.
   bool may_count(const PatchMesh::Triangle& triangle) const {
     const auto& [a, b, c] = triangle.vertex;
     return std::min(a, std::min(b, c)) >= PatchMesh::frame &&
            std::max(role[at(a)], std::max(role[at(b)], role[at(c)])) >= VertexRole::scored;
   }
-  /// Does a triangle count, and is it worse than `bad_alpha`? Most are good, which takes no root to see.
+  /// Returns whether a triangle counts and is worse than `bad_alpha`. For most triangles no root is needed.
   bool is_bad(const PatchMesh::Triangle& triangle, double bad_alpha) const {
     return may_count(triangle) && !is_surely_below(bad_alpha, triangle.vertex) && counts(triangle) &&
            alpha(triangle.vertex) > bad_alpha;
   }
   /// See mesh::is_surely_below.
   bool is_surely_below(double limit, const Corners& corners) const;
-  /// Returns mesh::aspect_ratio; infinite without area.
+  /// Returns mesh::aspect_ratio; infinite if the triangle has no area.
   double alpha(const Corners& corners) const {
     const geometry::Vec2 p = mesh.position(corners[0]), u = mesh.position(corners[1]) - p,
                          v = mesh.position(corners[2]) - p;
@@ -106,11 +107,11 @@ struct Patch {
   }
 
   PatchMesh mesh;
-  std::vector<VertexRole> role;         ///< by vertex
-  std::vector<double> size;             ///< h, by vertex
-  std::vector<BoundaryVertex> boundary; ///< by vertex
-  std::vector<LocalIndex> rim;          ///< vertices on the boundary, those that are gone included
-  GlobalId gain = 0;                    ///< of sites, since the start
+  std::vector<VertexRole> role;         ///< role by vertex
+  std::vector<double> size;             ///< h by vertex
+  std::vector<BoundaryVertex> boundary; ///< place on the boundary by vertex
+  std::vector<LocalIndex> rim;          ///< vertices on the boundary, including removed ones
+  GlobalId gain = 0;                    ///< number of sites added since the start
   bool broken = false;                  ///< an operation of the triangulation failed: the patch can no longer be used
 
 private:
@@ -121,17 +122,17 @@ private:
   bool lies_inside(const PatchMesh::Triangle& triangle) const;
 };
 
-/// @brief The place of a patch and the sites around it before any change. Everything that is asked of a trial is asked
-/// against it. One object serves one patch after the other.
+/// @brief The place of a patch and the sites around it before any change. Trials are compared with it. One object is
+/// used for one patch after the other.
 class PatchStart {
 public:
-  /// References must outlive the object. @param boundary the sites of the beginning: loops and periods are asked for
+  /// The arguments must outlive the object. @param boundary sites at the beginning; only loops and periods are used
   PatchStart(const polygon::BoundarySites& boundary, const polygon::BoundaryCurve& curve,
              const geometry::Lattice& lattice)
       : boundary_(boundary), curve_(curve), lattice_(lattice), patch_(lattice, boundary.periods) {}
 
-  /// @brief Triangulates the sites. @return false if nothing can be done: there are too many sites, or all are near the
-  /// rim
+  /// @brief Triangulates the sites. @return false if nothing can be changed, because there are too many sites or all
+  /// are near the rim
   /// @param sites see PatchOptimizer::improve
   bool build(geometry::Vec2 center, double size, std::span<const PatchSite> sites);
 
@@ -140,7 +141,7 @@ public:
   LocalIndex missing_chords() const { return missing_chords_; }
   const geometry::Periods& periods() const { return boundary_.periods; }
   const polygon::BoundaryCurve& curve() const { return curve_; }
-  /// Sites of a loop at the beginning of the clean-up.
+  /// Returns the number of sites of a loop at the beginning of the clean-up.
   LocalIndex sites_of_loop(LocalIndex loop) const {
     return boundary_.loop_start[at(loop) + 1] - boundary_.loop_start[at(loop)];
   }
@@ -148,19 +149,19 @@ public:
   geometry::Vec2 center() const { return center_; }
   double size() const { return size_; }
 
-  /// Is a vertex new, or has it moved?
+  /// Returns whether a vertex is new or has moved.
   bool has_changed(const Patch& now, LocalIndex v) const {
     return v >= vertices() || now.mesh.position(v) != patch_.mesh.position(v);
   }
-  /// Does a place belong to the middle of the patch, far enough from the sites that are held?
+  /// Returns whether a place is far enough from the sites that are held.
   bool is_in_core(geometry::Vec2 p) const {
     return distance(p) < (CleanupRules::reach - CleanupRules::free_depth - CleanupRules::core_depth) * size_;
   }
-  /// Would a new site with size h be far enough from the rim?
+  /// Returns whether a new site with size h would be far enough from the rim.
   bool has_room(geometry::Vec2 p, double h) const {
     return distance(p) + CleanupRules::free_depth * std::fmax(h, size_) < CleanupRules::reach * size_;
   }
-  /// May a site move to a place, as far as the rim is concerned?
+  /// Returns whether a place is far enough from the rim for a site to move there.
   bool is_off_rim(geometry::Vec2 p) const {
     return !(distance(p) > (CleanupRules::reach - CleanupRules::free_depth + CleanupRules::most_outwards) * size_);
   }
@@ -176,16 +177,17 @@ private:
   const polygon::BoundaryCurve& curve_;
   geometry::Lattice lattice_;
   Patch patch_;
-  std::vector<BoundaryName> next_; // of each vertex of the rim
+  std::vector<BoundaryName> next_; // next site of each vertex on the boundary
   geometry::Vec2 center_;
   double size_ = 1;
   LocalIndex missing_chords_ = 0;
 };
 
-/// @brief A triangle whose three sites rest is left alone. A site that moves or is new does not rest.
+/// @brief The sites that rest. A triangle whose three sites rest is not tried. A site that moves or is new does not
+/// rest.
 class PatchRests {
 public:
-  /// @param sites of the patch, in the order of its vertices
+  /// @param sites sites of the patch, in the order of its vertices
   void start(std::span<const PatchSite> sites) {
     rests_.assign(PatchMesh::frame, 0);
     for (const PatchSite& site : sites)
@@ -205,7 +207,7 @@ public:
     for (const LocalIndex v : vertices)
       rests_[at(v)] = 0;
   }
-  /// Sites that have moved far no longer rest, and new sites do not rest.
+  /// Ends the rest of sites that have moved far, and of new sites.
   void wake_moved(const Patch& before, const Patch& now) {
     rests_.resize(at(now.mesh.vertices()), 0);
     for (LocalIndex v = PatchMesh::frame; v < before.mesh.vertices(); ++v) {

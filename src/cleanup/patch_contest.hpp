@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The contest of the operations at a bad triangle: which are tried how far, and which one is kept.
+// The contest of the operations at a bad triangle: it decides how far each operation is tried, and which one is kept.
 #pragma once
 
 #include "cleanup/patch.hpp"
@@ -11,27 +11,27 @@
 
 namespace trime::cleanup {
 
-/// @brief The AlphaScore over the triangles near a place. For trials most of the sum is known: a trial shares most of
-/// its triangles with the patch that it was copied from.
+/// @brief The AlphaScore over the triangles near a place. Most of the sum of a trial is already known, because it
+/// shares most of its triangles with the patch from which it was copied.
 class PatchScore {
 public:
   explicit PatchScore(double bad_alpha) : bad_alpha_(bad_alpha) {}
 
-  /// @brief From now on the triangles near this place count, and trials are compared with this patch.
-  /// @return the score of the patch. Its list of changed triangles is emptied.
+  /// @brief Makes the triangles near this place count, and this patch the one with which trials are compared.
+  /// @return the score of the patch, whose list of changed triangles is emptied
   AlphaScore begin(Patch& now, const BadPlace& place);
 
-  /// Vertices that may move in the last sweeps of a trial, and those that may in the first.
+  /// Vertices that may move in the last sweeps of a trial, and vertices that may move in the first.
   std::span<const LocalIndex> near() const { return near_; }
   std::span<const LocalIndex> nearest() const { return nearest_; }
 
-  /// @brief The sum of a trial, fast. It does not see when a chord that has come or gone turns a triangle with three
-  /// vertices on the boundary inside out; score() has the last word.
+  /// @brief Returns the sum of a trial, quickly. It does not notice that a new or removed chord moves a triangle with
+  /// three vertices on the boundary to the other side of the boundary; score() does.
   double sum(const Patch& now, const Patch& trial);
   AlphaScore score(const Patch& trial) const;
 
 private:
-  struct Term { // what a triangle of the patch adds to the sum
+  struct Term { // the term of a triangle of the patch in the sum
     Corners vertex;
     LocalIndex triangle;
     double value;
@@ -47,40 +47,41 @@ private:
 
   double bad_alpha_;
   std::vector<LocalIndex> near_, nearest_;
-  std::vector<std::uint8_t> in_score_; // by vertex of the patch
+  std::vector<std::uint8_t> in_score_; // whether its triangles count, by vertex of the patch
   std::vector<Term> terms_;
-  std::vector<std::uint8_t> has_term_;  // by triangle of the patch
-  std::vector<std::uint8_t> has_moved_; // by vertex of a trial
-  std::vector<LocalIndex> changed_;     // triangles of a trial that the patch has not
+  std::vector<std::uint8_t> has_term_;  // whether it has a term, by triangle of the patch
+  std::vector<std::uint8_t> has_moved_; // whether it has moved, by vertex of a trial
+  std::vector<LocalIndex> changed_;     // triangles of a trial that the patch does not have
 };
 
-/// @brief Tries operations, each on a copy of the patch and followed by moves. Few of them get a second sweep, fewer
-/// the last ones. An operation is better if the sum of the AlphaScore near it falls by CleanupRules::least_gain and the
-/// largest alpha does not rise. Where the triangle is bad enough, smaller triangles are tried, too: they are more, so
-/// only the largest alpha decides; its excess has to fall by CleanupRules::refine_gain.
+/// @brief Tries operations, each on a copy of the patch and followed by sweeps of moves. Few trials get a second sweep,
+/// and fewer get the last ones. An operation is better if the sum of the AlphaScore near it falls by
+/// CleanupRules::least_gain and the largest alpha does not rise. At a very bad triangle, smaller triangles are tried,
+/// too. There are more of them, so only the largest alpha decides: its excess must fall by CleanupRules::refine_gain.
 class PatchContest {
 public:
-  /// References must outlive the object.
+  /// The arguments must outlive the object.
   PatchContest(const PatchStart& start, PatchChords& chords, PatchMover& mover, const PatchOptions& options);
 
-  /// When a contest is held: before all moves, or after them.
+  /// Whether a contest is held before all moves or after them.
   enum class Turn { before_moves, after_moves };
-  /// @brief Holds the contest at a triangle of the patch. @return whether something was better; then it is in `now`
+  /// @brief Holds the contest at a triangle of the patch. @return true if an operation was better; then `now` is its
+  /// result
   bool hold(Patch& now, const Corners& worst, const PatchBudget& budget, Turn turn);
 
-  /// After a contest that something has won: the patch as it was before, and the sites that took part.
+  /// After a contest with a winner: the patch before it, and the sites that took part.
   const Patch& before() const { return best_; }
   std::span<const LocalIndex> near() const { return score_.near(); }
 
 private:
   struct Runner { // a trial that is still in the contest
     Patch patch;
-    double sum = 0, handicap = 1; // sum: infinite if there is no trial here
+    double sum = 0, handicap = 1; // the sum is infinite if there is no trial here
   };
   /// The requirements for a trial.
   struct Bar {
-    double first;   // sum that it has to fall below at first
-    double least;   // the same since the best trial
+    double first;   // the sum must be below this at first
+    double least;   // the sum must be below this since the best trial
     double before;  // largest alpha at the beginning
     double largest; // largest alpha since the best trial
     bool found = false;
@@ -107,8 +108,8 @@ private:
   PatchOperations operations_;
   PatchScore score_;
   Patch trial_, best_;
-  std::vector<Runner> runners_, finalists_; // by sum
-  bool is_thorough_ = false;                // the triangle is bad enough for many trials that run to their end
+  std::vector<Runner> runners_, finalists_; // ordered by sum
+  bool is_thorough_ = false;                // true if the triangle is bad enough for many complete trials
   std::vector<LocalIndex> ring_, touched_;  // vertices: work space
 };
 

@@ -12,41 +12,41 @@
 
 namespace trime::cleanup {
 
-/// @brief The name of a site on the boundary during the clean-up, the same on every rank: the index for sites of the
-/// beginning, a hash for new ones. A negative number means that the site is inside, see mesh::Site.
+/// @brief The name of a site on the boundary during the clean-up, the same on every rank: the index for sites that
+/// existed at the beginning, a hash for new ones. A negative number means that the site is inside, see mesh::Site.
 using BoundaryName = std::int64_t;
 
 /// The place of a site on the boundary.
 struct BoundaryPlace {
   LocalIndex loop = -1;
   bool corner = false;
-  double arc = 0;         ///< from the start of the loop
-  double tolerance = 0;   ///< how far a new chord may pass from a curve with corners between
+  double arc = 0;         ///< arc length from the start of the loop
+  double tolerance = 0;   ///< largest distance of a new chord from a curve with corners in between
   BoundaryName next = -1; ///< the next site along the loop
 };
 
-/// A site near a bad triangle, at that image of it which lies there.
+/// A site near a bad triangle, at the image that lies there.
 struct PatchSite {
   geometry::Vec2 position;
   double size;                             ///< h there
   BoundaryName boundary = mesh::free_site; ///< its name
-  std::int32_t rests = 0;                  ///< nothing helped here the last time
-  BoundaryPlace on_boundary{};             ///< if it is on the boundary
+  std::int32_t rests = 0;                  ///< 1 if nothing helped here the last time
+  BoundaryPlace on_boundary{};             ///< its place, if it is on the boundary
 };
 
-/// A change of one site: it moves, it goes, or it is new (`from` says nothing then).
+/// A change of one site: it moves, is removed, or is new (then `from` is unused).
 struct SiteEdit {
   geometry::Vec2 from, to;
   polygon::EditKind kind = polygon::EditKind::move;
-  LocalIndex loop = -1;                    ///< of a site on the boundary
+  LocalIndex loop = -1;                    ///< loop of a site on the boundary
   BoundaryName boundary = mesh::free_site; ///< name of the site; for a new one on the boundary, of the site before it
-  BoundaryName made = mesh::free_site;     ///< of a new site: its name
-  double arc = 0;                          ///< of the new place on the boundary
-  std::uint64_t patch = 0;                 ///< which patch wants it
+  BoundaryName made = mesh::free_site;     ///< name of a new site
+  double arc = 0;                          ///< arc length of the new place on the boundary
+  std::uint64_t patch = 0;                 ///< number of the patch that makes the change
   double size = 0, tolerance = 0; ///< h, and BoundaryPlace::tolerance, at the new place; CleanupRounds sets them
 };
 
-/// A site on the boundary has got another next one.
+/// A site on the boundary with a new next site.
 struct BoundaryLink {
   geometry::Vec2 position; ///< after the patch
   BoundaryName site, next;
@@ -60,15 +60,15 @@ struct SiteVerdict {
   std::int64_t rests;      ///< nothing helped for its bad triangles, and it has not moved much since
 };
 
-/// The result of a patch.
+/// The result of trying a patch.
 struct PatchResult {
-  std::vector<SiteEdit> edits;       ///< empty if nothing was better
-  std::vector<BoundaryLink> links;   ///< of the sites on the boundary that move, are new, or have new next ones
-  std::vector<SiteVerdict> verdicts; ///< of the sites that have or had bad triangles, where something has changed
-  bool put_off = false;              ///< the edits were dropped to keep the number of sites; CleanupLimits sets it
+  std::vector<SiteEdit> edits;       ///< changes that improve the patch; empty if none does
+  std::vector<BoundaryLink> links;   ///< one for each site on the boundary that moves, is new, or has a new next site
+  std::vector<SiteVerdict> verdicts; ///< one for each site that has or had bad triangles, where something has changed
+  bool put_off = false;              ///< CleanupLimits has dropped the edits because of the number of sites
 };
 
-/// When something is tried. Tests lower these limits to see what becomes of nearly good triangles.
+/// From which alpha on changes are tried. Tests lower these limits to see how nearly good triangles are treated.
 struct PatchOptions {
   double bad_alpha = CleanupRules::bad_alpha;
   double operate_alpha = CleanupRules::operate_alpha;
@@ -77,12 +77,13 @@ struct PatchOptions {
 
 /// Limits on how a patch may change the number of sites.
 struct PatchBudget {
-  GlobalId may_insert = 100;                      ///< largest number of sites that the patch may gain
-  GlobalId may_refine = 100;                      ///< the same where smaller triangles are the last resort
-  GlobalId may_delete = 2;                        ///< largest number of sites that the patch may lose
-  bool is_again = false;                          ///< whether the patch has been tried before
-  double again_alpha = CleanupRules::again_alpha; ///< then operations are tried for triangles above it
-  double deletion_handicap = 1; ///< factor on the sum of a trial with fewer sites: above 1 if sites are scarce
+  GlobalId may_insert = 100; ///< largest number of sites that the patch may gain
+  GlobalId may_refine = 100; ///< largest number of sites that it may gain where only smaller triangles help
+  GlobalId may_delete = 2;   ///< largest number of sites that the patch may lose
+  bool is_again = false;     ///< whether the patch has been tried before
+  double again_alpha =
+      CleanupRules::again_alpha; ///< in that case, operations are tried for triangles with a larger alpha
+  double deletion_handicap = 1;  ///< factor on the sum of a trial with fewer sites: above 1 if sites are scarce
 };
 
 } // namespace trime::cleanup

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A small Delaunay triangulation of one thread: the surroundings of a bad triangle, on which changes are tried.
+// A small Delaunay triangulation of one thread: the surroundings of a bad triangle, in which changes are tried.
 #pragma once
 
 #include "trime/core/types.hpp"
@@ -14,70 +14,70 @@
 
 namespace trime::cleanup {
 
-/// @brief Delaunay triangulation of lattice points inside a square frame of four virtual vertices (0 to 3; points
-/// count from 4). Exact: the predicates and the tie rule of the stars, so whatever lies clear of the frame is what the
-/// stars of the whole mesh find.
+/// @brief Delaunay triangulation of lattice points inside a square frame of four virtual vertices (0 to 3; points count
+/// from 4). Exact: it uses the predicates and the tie rule of the stars. So away from the frame it has the triangles of
+/// the whole mesh.
 ///
-/// Points come by insertion (Bowyer 1981, Watson 1981), go by flips, and move with the edges around them flipped back
-/// (Lawson 1977). Plain arrays: copying a mesh is how a trial is taken back.
+/// Points are inserted by the method of Bowyer (1981) and Watson (1981) and removed by flips. When a point moves, edges
+/// around it are flipped (Lawson 1977). The mesh consists of plain arrays, because each trial works on a copy.
 class PatchMesh {
 public:
   static constexpr LocalIndex frame = 4; ///< vertices before the first point
   struct Triangle {
-    std::array<LocalIndex, 3> vertex;    ///< counter-clockwise; vertex[0] < 0: not in use
-    std::array<LocalIndex, 3> neighbour; ///< across the edge opposite of each vertex, -1 outside of the frame
+    std::array<LocalIndex, 3> vertex;    ///< counter-clockwise; vertex[0] < 0 if the triangle is not in use
+    std::array<LocalIndex, 3> neighbour; ///< triangle across the edge opposite each vertex, -1 outside the frame
   };
 
   PatchMesh(const geometry::Lattice& lattice, const geometry::Periods& periods)
       : lattice_(lattice), periods_(periods) {}
 
-  /// Empties the mesh and puts the frame at the corners of the square around `center`, `half_width` being a lattice
-  /// multiple.
+  /// Empties the mesh and puts the frame at the corners of the square around `center`. @pre `half_width` is a multiple
+  /// of the lattice step
   void start(geometry::Vec2 center, double half_width);
-  /// Adds a point without triangles; no other lies there. connect_all must follow before anything else.
+  /// Adds a point without triangles. connect_all must be called before anything else. @pre no other point lies there
   LocalIndex append(geometry::Vec2 p);
   /// Inserts the points that have been appended since start, along a Hilbert curve.
   void connect_all();
   /// @brief Adds a point inside the frame. @return its vertex, or -1 if a vertex lies there already. About 0.5
   /// microseconds near the last one.
   LocalIndex insert(geometry::Vec2 p);
-  /// Removes vertex v, not one of the frame.
+  /// Removes vertex v. @pre v is not a vertex of the frame
   /// @return false if it cannot be done; then the mesh can no longer be used
   bool remove(LocalIndex v);
-  /// Moves vertex v. @return false, and nothing is done, if a triangle around v would turn over
+  /// Moves vertex v. @return false, and does nothing, if a triangle around v would be inverted
   bool move(LocalIndex v, geometry::Vec2 to);
-  /// @brief Puts vertex v elsewhere within its star and leaves the edges as they are: restore must follow.
-  /// @pre no triangle around v turns over
+  /// @brief Moves vertex v within its star without flips. restore must follow. @pre no triangle around v is inverted
   void shift(LocalIndex v, geometry::Vec2 to) { positions_[static_cast<std::size_t>(v)] = to; }
-  /// Flips edges around these vertices, all that have been shifted, until the triangulation is Delaunay again.
+  /// Flips edges around the shifted vertices until the triangulation is Delaunay again. @param shifted all vertices
+  /// that were shifted
   void restore(std::span<const LocalIndex> shifted);
-  /// Takes vertex v out and puts it in again elsewhere, where no vertex is: also past triangles of no area.
+  /// Removes vertex v and inserts it at another place, also beyond triangles without area. @pre no vertex lies at `to`
   /// @return false if it cannot be done; then the mesh can no longer be used
   bool replace(LocalIndex v, geometry::Vec2 to);
 
   LocalIndex vertices() const { return static_cast<LocalIndex>(positions_.size()); }
   geometry::Vec2 position(LocalIndex v) const { return positions_[static_cast<std::size_t>(v)]; }
   std::span<const Triangle> triangles() const { return triangles_; }
-  /// Returns the triangles that got vertices since the last call of forget_changes, in any order, some several times;
-  /// without those that have gone.
+  /// Returns the existing triangles whose vertices have changed since the last call of forget_changes, in any order,
+  /// some several times.
   std::span<const LocalIndex> changed() const { return changed_; }
   void forget_changes() { changed_.clear(); }
-  /// The neighbours of v, counter-clockwise, replacing the content of `ring`.
+  /// Replaces the content of `ring` by the neighbours of v, counter-clockwise.
   void collect_ring(LocalIndex v, std::vector<LocalIndex>& ring) const;
   LocalIndex degree(LocalIndex v) const;
-  /// The vertices opposite of the edge between two vertices: left of the way, and right of it (-1 beyond the frame).
+  /// The vertices opposite an edge, on its left and on its right (-1 beyond the frame).
   struct Apexes {
     LocalIndex left, right;
   };
-  /// Nothing if the two are no neighbours.
+  /// Returns nothing if the two vertices are not neighbours.
   std::optional<Apexes> apexes(LocalIndex from, LocalIndex to) const;
 
 private:
-  struct Side { // the edge of triangle t opposite of its vertex k
+  struct Side { // the edge of triangle t opposite its vertex k
     LocalIndex t;
     int k;
   };
-  struct Rim { // of a cavity: an edge and the triangle beyond
+  struct Rim { // an edge of a cavity and the triangle beyond it
     LocalIndex from, to, outside, created;
   };
   Triangle& triangle(LocalIndex t) { return triangles_[static_cast<std::size_t>(t)]; }
@@ -97,16 +97,16 @@ private:
   geometry::Lattice lattice_;
   geometry::Periods periods_;
   std::vector<geometry::Vec2> positions_;
-  std::vector<LocalIndex> corner_of_; // of each vertex a triangle that has it
+  std::vector<LocalIndex> corner_of_; // one triangle of each vertex
   std::vector<Triangle> triangles_;
   std::vector<LocalIndex> unused_;
-  LocalIndex last_ = 0;             // where the next search begins
-  std::vector<LocalIndex> changed_; // triangles
+  LocalIndex last_ = 0;             // triangle with which the next search begins
+  std::vector<LocalIndex> changed_; // triangles whose vertices have changed
   struct OnCurve {
     std::uint32_t key;
     LocalIndex vertex;
   };
-  struct WorkSpace { // nothing of it is worth a copy
+  struct WorkSpace { // copies of the mesh do not copy it
     WorkSpace() = default;
     WorkSpace(const WorkSpace&) {}
     WorkSpace& operator=(const WorkSpace&) { return *this; }

@@ -13,26 +13,27 @@ namespace trime::cleanup {
 
 /// A change that may help a bad triangle.
 struct PatchOperation {
-  std::array<LocalIndex, 2> removed{-1, -1};   ///< vertices
-  std::array<LocalIndex, 2> divided{-1, -1};   ///< chords of the boundary, by the vertex where they begin
-  std::optional<geometry::Vec2> inserted = {}; ///< inside
+  std::array<LocalIndex, 2> removed{-1, -1}; ///< vertices that are removed
+  std::array<LocalIndex, 2> divided{-1,
+                                    -1}; ///< chords of the boundary that are divided, by the vertex where they begin
+  std::optional<geometry::Vec2> inserted = {}; ///< place of a new site inside
   bool inserts() const { return divided[0] >= 0 || inserted; }
   friend bool operator==(const PatchOperation&, const PatchOperation&) = default;
 };
 
-/// @brief Carries out operations on a trial. After a function returns false, the trial can no longer be used.
+/// @brief Applies operations to a trial. After a function returns false, the trial can no longer be used.
 class PatchEditor {
 public:
   /// References must outlive the object.
   PatchEditor(const PatchStart& start, const PatchChords& chords) : start_(start), chords_(chords) {}
 
-  /// @param size h at the place, for new sites inside
+  /// @param size h at the place of a new site inside
   bool apply(Patch& trial, const PatchOperation& operation, double size) const;
   bool remove(Patch& trial, LocalIndex v) const;
-  /// Inserts a site inside. In the disc of a chord it is pushed out of it, such as in the corner of a square. The trial
-  /// stays as it is if there is no room.
+  /// Inserts a site inside. A site in the disc of a chord is pushed out of it, as in the corner of a square. Does not
+  /// change the trial if there is no room.
   bool insert(Patch& trial, geometry::Vec2 place, double size) const;
-  /// Divides the chord that begins at a vertex: in its middle, or at a corner that was left out.
+  /// Divides the chord that begins at a vertex, in its middle or at a corner that was left out.
   bool divide(Patch& trial, LocalIndex before) const;
 
 private:
@@ -46,7 +47,7 @@ public:
   /// References must outlive the object.
   PatchRefiner(const PatchChords& chords, const PatchEditor& editor) : chords_(chords), editor_(editor) {}
 
-  /// @param now the patch as it is @param trial a copy of it, which is changed
+  /// @param now the patch @param trial a copy of it, which is changed
   /// @return false if it cannot be done; then the trial can no longer be used
   bool refine(const Patch& now, Patch& trial, const BadPlace& place);
 
@@ -58,14 +59,15 @@ private:
 
   const PatchChords& chords_;
   const PatchEditor& editor_;
-  std::vector<geometry::Vec2> middles_; // of edges inside
+  std::vector<geometry::Vec2> middles_; // middles of inner edges
   std::vector<LocalIndex> ring_;        // work space
 };
 
-/// @brief Lists what may help the worst triangle, the most promising first.
+/// @brief Lists operations that may help the worst triangle, the most promising first.
 class PatchOperations {
 public:
-  /// @param is_thorough deletions of all neighbours are tried, else of those inside with few neighbours
+  /// @param is_thorough if true, lists the deletion of every neighbour, otherwise only of inner ones with few
+  /// neighbours
   void list(const Patch& now, const BadPlace& place, bool is_thorough);
   std::span<const PatchOperation> all() const { return all_; }
 

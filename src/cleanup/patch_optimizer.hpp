@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The surroundings of bad triangles and the changes that are tried there. One thread; knows nothing of ranks.
+// Tries changes around bad triangles. Runs on one thread, and knows nothing of ranks.
 #pragma once
 
 #include "cleanup/patch.hpp"
@@ -11,15 +11,15 @@
 
 namespace trime::cleanup {
 
-/// @brief Compares a patch with what it was at its start.
+/// @brief Compares a patch with its start.
 class PatchReport {
 public:
   /// References must outlive the object.
   PatchReport(const PatchStart& start, const PatchRests& rests) : start_(start), rests_(rests) {}
 
-  /// The difference between the sites and what they have become. @param patch see PatchOptimizer::improve
+  /// Returns the changes of the sites since the start. @param patch see PatchOptimizer::improve
   std::vector<SiteEdit> edits(const Patch& now, std::uint64_t patch) const;
-  /// Which sites on the boundary have other next ones than before, or another place.
+  /// Returns the sites on the boundary whose next site or place has changed.
   std::vector<BoundaryLink> links(const Patch& now, std::uint64_t patch) const;
   /// Reports all sites with triangles that are all known, if the patch has changed anything about them.
   std::vector<SiteVerdict> verdicts(const Patch& now, double bad_alpha);
@@ -33,28 +33,28 @@ private:
 
   const PatchStart& start_;
   const PatchRests& rests_;
-  std::vector<double> worst_before_, worst_after_; // by vertex: alpha of its worst triangle if that is bad, else 0
+  std::vector<double> worst_before_, worst_after_; // by vertex: alpha of its worst triangle if that is bad, otherwise 0
 };
 
-/// @brief Chooses the triangle of a patch that is improved next. Triangles are identified by their corners, from the
-/// largest index on, so that the way in which the triangulation stores them does not matter.
+/// @brief Chooses the triangle of a patch that is improved next. Triangles are identified by their corners, beginning
+/// with the largest index, so the result does not depend on how the triangulation stores them.
 class PatchWorst {
 public:
   /// References must outlive the object.
   PatchWorst(const PatchStart& start, const PatchRests& rests) : start_(start), rests_(rests) {}
 
-  /// @brief Nothing has been tried; triangles above a limit are wanted.
+  /// @brief Begins a list of triangles above a limit that have not been tried.
   void begin(double above) {
     above_ = above;
     tried_.clear();
     forget();
   }
-  /// Notes that the patch has changed: its triangles are listed again when they are needed.
+  /// Notes that the patch has changed. Its triangles are listed again when they are needed.
   void forget() { is_listed_ = false; }
 
-  /// The worst triangle that has not been tried and does not rest.
+  /// Returns the worst triangle that has not been tried and does not rest.
   std::optional<Corners> next(const Patch& now);
-  /// @param corners as next() gives them
+  /// @param corners the corners that next() returned
   void set_tried(const Corners& corners) { tried_.push_back(corners); }
   bool is_tried(const Corners& corners) const;
 
@@ -74,17 +74,17 @@ private:
   bool is_listed_ = false;
 };
 
-/// @brief Aspect ratios that are computed again only where vertices have moved or edges have been flipped: the same
-/// bits as Patch::alpha, without most of its roots.
+/// @brief Aspect ratios that are computed again only where vertices have moved or edges were flipped. They have the
+/// bits of Patch::alpha, but need few roots.
 class KnownAlphas {
 public:
-  /// Another patch, or another number of vertices, comes next.
+  /// Must be called before another patch, or another number of vertices.
   void forget() {
     places_.clear();
     known_.clear();
     time_ = 0;
   }
-  /// @brief The patch may have moved. O(vertices). To be called before `alpha`.
+  /// @brief Notes which vertices of the patch have moved. O(vertices). Must be called before `alpha`.
   void follow(const Patch& patch) {
     const auto vertices = at(patch.mesh.vertices());
     has_moved_.assign(vertices, 1);
@@ -110,24 +110,25 @@ public:
 private:
   struct Known {
     Corners vertex;
-    int time; // when it was asked for the last time
+    int time; // when it was last needed
     double alpha;
   };
   int time_ = 0;                        // counts the calls of follow
-  std::vector<geometry::Vec2> places_;  // by vertex: the positions that `known_` was computed from
-  std::vector<std::uint8_t> has_moved_; // by vertex, since then
-  std::vector<Known> known_;            // by triangle
+  std::vector<geometry::Vec2> places_;  // by vertex: position for which `known_` was computed
+  std::vector<std::uint8_t> has_moved_; // by vertex: whether it has moved since then
+  std::vector<Known> known_;            // ratios by triangle
 };
 
-/// @brief Improves all triangles around a place: first by moves of the sites of bad ones, then, from the worst one on,
-/// by insertions and deletions followed by such moves; where nothing else helps, by smaller triangles. Sites on the
-/// boundary that are no corners take part: they slide along their curve, come and go.
+/// @brief Improves all triangles around a place. First it moves the sites of bad triangles. Then, beginning with the
+/// worst triangle, it tries insertions and deletions that are followed by such moves, and smaller triangles where
+/// nothing else helps. Sites on the boundary that are not corners take part: they slide along their curve, and may be
+/// inserted and removed.
 ///
-/// Moves alone would only spread what is wrong around a very bad triangle over many others. There an insertion or a
-/// deletion comes first if with moves it is better than the same moves alone.
+/// Around a very bad triangle, moves alone would only make many other triangles worse. There an insertion or a deletion
+/// comes first if, followed by moves, it is better than these moves alone.
 ///
-/// The rules are those of PatchContest, PatchMover and PatchChords. Only + - * / sqrt and exact predicates inside: the
-/// result is a pure function of the sites.
+/// The rules are those of PatchContest, PatchMover and PatchChords. It uses only + - * /, sqrt and exact predicates, so
+/// the result is a pure function of the sites.
 class PatchOptimizer {
 public:
   /// See PatchStart.
@@ -139,11 +140,11 @@ public:
   PatchOptimizer(const PatchOptimizer&) = delete; // its parts refer to each other
   PatchOptimizer& operator=(const PatchOptimizer&) = delete;
 
-  /// @brief Tries everything once.
+  /// @brief Tries all changes once.
   /// @param size h at the center
-  /// @param sites in lexicographic order, all different; all that lie within CleanupRules::reach times `size` of
-  ///        `center`
-  /// @param patch a number that no other patch has: new sites on the boundary are called after it
+  /// @param sites all sites within CleanupRules::reach times `size` of `center`, in lexicographic order, at different
+  /// places
+  /// @param patch a number that no other patch has; names of new sites on the boundary are made from it
   PatchResult improve(geometry::Vec2 center, double size, std::span<const PatchSite> sites, const PatchBudget& budget,
                       std::uint64_t patch = 0);
 
@@ -168,7 +169,7 @@ private:
   PatchReport report_;
   Patch now_, best_;
   KnownAlphas alphas_;
-  std::vector<std::uint8_t> mark_; // by vertex
+  std::vector<std::uint8_t> mark_; // work space by vertex
   std::vector<LocalIndex> movers_; // sites of bad triangles, and their neighbours
 };
 

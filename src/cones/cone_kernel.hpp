@@ -73,8 +73,8 @@ struct ConeList {
   /// Numbers of the points: 3 x 3 points row by row, then the centres of the quarters.
   static constexpr int points = 13, center = 4, first_quarter = 9;
   static constexpr int arrays = points + 3;
-  static constexpr std::int64_t padding =
-      8; ///< cones without effect follow the last one, up to a multiple of this number
+  /// Cones without effect follow the last one, up to a multiple of this number.
+  static constexpr std::int64_t padding = 8;
 
   double* numbers = nullptr;
   std::int64_t stride = 0; ///< distance from array to array

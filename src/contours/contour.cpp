@@ -51,7 +51,7 @@ std::vector<FilePoint> parse_points(std::string_view text, const std::string& so
     points.push_back({*p, number});
   });
   if (points.empty())
-    throw GeometryError(fmt::format("{}: expected points, one 'x y' a line, found none", source));
+    throw GeometryError(fmt::format("{}: expected points, one 'x y' per line, found none", source));
   return points;
 }
 
@@ -236,7 +236,9 @@ Contour read_contour(const std::string& path, const std::string& hint, const std
   const std::string text = read_file(path, hint);
   if (ends_with_extension(path, ".poly") && lacks_vertices(text)) {
     const std::string stem = path.substr(0, path.size() - std::string_view(".poly").size());
-    return parse_poly(text, path, read_file(stem + ".node", fmt::format(" ({} itself has no vertices)", path)));
+    return parse_poly(text, path,
+                      read_file(stem + ".node", fmt::format(" ({} itself has no vertices, so they must be in {})", path,
+                                                            stem + ".node")));
   }
   return parse_contour(text, path, attribute);
 }

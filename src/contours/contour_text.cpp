@@ -118,7 +118,7 @@ std::string hint_for(std::string_view line, bool first) {
   int numbers = 0;
   while (numbers < 4 && is_number(take_word(line), number))
     ++numbers;
-  return numbers == 3 && trimmed(line).empty() ? "; found three numbers, but points in the plane have two" : "";
+  return numbers == 3 && trimmed(line).empty() ? "; points in the plane have two numbers: remove the third column" : "";
 }
 
 } // namespace
@@ -216,10 +216,11 @@ int WordLines::integer_at(std::size_t k, const char* what) const {
   return static_cast<int>(value);
 }
 
-void WordLines::refuse(const std::string& what) const {
+void WordLines::refuse(const std::string& what, const std::string& hint) const {
   const std::string found =
       words_.empty() ? std::string("the end of the file") : fmt::format("'{}'", line_.substr(0, most_shown));
-  throw GeometryError(fmt::format("{}:{}: expected {}, found {}", source_, number_, what, found));
+  throw GeometryError(
+      fmt::format("{}:{}: expected {}, found {}{}{}", source_, number_, what, found, hint.empty() ? "" : "; ", hint));
 }
 
 void check_coordinates(Vec2 p, const std::string& source, int line) {

@@ -69,7 +69,7 @@ public:
   /// @param separators separate words, in addition to blanks and tabs
   WordLines(std::string_view text, const std::string& source, std::string_view separators);
 
-  /// Goes to the next line with words. Returns false if there is none.
+  /// Goes to the next line with words. Returns false if there is no such line.
   bool next();
   int number() const { return number_; } ///< number of the line, from 1
   const std::vector<std::string_view>& words() const { return words_; }
@@ -77,7 +77,7 @@ public:
   double number_at(std::size_t k, const char* what) const;
   /// Returns word k as an integer that fits into an int.
   int integer_at(std::size_t k, const char* what) const;
-  [[noreturn]] void refuse(const std::string& what) const;
+  [[noreturn]] void refuse(const std::string& what, const std::string& hint = "") const;
 
 private:
   std::string_view rest_;
@@ -94,8 +94,7 @@ void check_coordinates(geometry::Vec2 p, const std::string& source, int line);
 /// @brief Returns the rings of the polygons of a shapefile, and of lines that form rings. The line number of a vertex
 /// is the number of its record, from 1. NAME.shx must be next to it; NAME.prj names the reference system.
 /// @param hint ends the message if the file cannot be opened
-/// @param attribute of NAME.dbf that names the boundary, see parse_geojson; empty if there is none. Texts are UTF-8 or
-/// Latin-1
+/// @param attribute of NAME.dbf that names the boundary, see parse_geojson; may be empty. Texts are UTF-8 or Latin-1
 /// @throws FileError if a file is missing or damaged; ConfigError if there is no such attribute; GeometryError
 /// `source:record: ...` for open lines
 /// @note Serial.

@@ -20,7 +20,7 @@ public:
   enum class Kind { polygon, line };
 
   /// @param contour names its source; receives rings, names and warnings, and outlives this object
-  /// @param attribute the attribute that names the boundary; empty if there is none
+  /// @param attribute the attribute that names the boundary; may be empty
   FeatureRings(Contour& contour, std::string attribute);
 
   /// @brief Adds a ring, or a line that may be open, to the current feature. @pre it has a vertex

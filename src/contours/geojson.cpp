@@ -124,7 +124,8 @@ public:
     return true;
   }
   bool parse_error(std::size_t, const std::string& token, const nlohmann::json::exception&) {
-    refuse(line_, fmt::format("expected JSON, found '{}'", shown(token)));
+    refuse(line_,
+           fmt::format("expected JSON, found '{}'; the file is damaged or cut off here, or not GeoJSON", shown(token)));
   }
 
   void finish() { rings_.finish("GeoJSON with a Polygon or MultiPolygon"); }
@@ -192,7 +193,7 @@ private:
 
   bool other_value() const {
     if (is_in_coordinates())
-      refuse(line_, "expected numbers in 'coordinates', found something else");
+      refuse(line_, "expected only numbers in 'coordinates', found a text, true, false or null");
     return true;
   }
 

@@ -46,12 +46,13 @@ private:
     for (char& c : name)
       c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
     if (name.starts_with("$meshformat"))
-      lines_.refuse("a .msh of JIGSAW; this one is a .msh of Gmsh, which the program does not read: write the contour "
-                    "as .poly or .geojson");
+      lines_.refuse("a .msh of JIGSAW", "this is a .msh of Gmsh, which the program does not read: write the contour as "
+                                        ".poly or .geojson");
     if (name == "mshid") {
       is_jigsaw_ = true;
       if (lines_.words().size() > 2 && lines_.words()[2].find_first_of("lL") == 1)
-        lines_.refuse("EUCLIDEAN-MESH: the program does not read grids, nor meshes on the ellipsoid (in radians); "
+        lines_.refuse("EUCLIDEAN-MESH",
+                      "the program reads neither grids nor meshes on the ellipsoid (in radians): "
                       "write longitude and latitude in degrees as .geojson, and set [shape] projection");
     } else if (name == "ndims") {
       if (lines_.integer_at(1, "'ndims=2'") != 2)

@@ -252,10 +252,12 @@ private:
       used[static_cast<std::size_t>(s.from)] = used[static_cast<std::size_t>(s.to)] = 1;
     const auto unused = std::find(used.begin(), used.end(), 0);
     if (const auto count = std::count(used.begin(), used.end(), 0); count > 0)
-      warnings.push_back(fmt::format("{}:{}: {} vert{} here first, on no segment; they are ignored: write points that "
-                                     "the mesh shall keep into the file of [meshing] fixed_points",
-                                     source_, vertices_[static_cast<std::size_t>(unused - used.begin())].line, count,
-                                     count == 1 ? "ex lies," : "ices lie,"));
+      warnings.push_back(
+          fmt::format("{}:{}: {} on no segment, and {} ignored; list points that the mesh must keep in the "
+                      "file of [meshing] fixed_points",
+                      source_, vertices_[static_cast<std::size_t>(unused - used.begin())].line,
+                      count == 1 ? "this vertex lies" : fmt::format("this vertex and {} more lie", count - 1),
+                      count == 1 ? "is" : "are"));
   }
 
   const std::string& source_;

@@ -124,9 +124,10 @@ void drop_useless(std::vector<FileSegment>& segments, const std::string& source,
       segments[kept++] = segments[k];
   segments.resize(kept);
   if (kept < before)
-    warnings.push_back(
-        fmt::format("{}:{}: {} segment{} without length or given before, here first; the mesh ignores such segments",
-                    source, line, before - kept, before - kept == 1 ? "" : "s"));
+    warnings.push_back(fmt::format("{}:{}: {} ignored, because {} no length or repeat{} another segment", source, line,
+                                   before - kept == 1 ? "this segment is"
+                                                      : fmt::format("this segment and {} more are", before - kept - 1),
+                                   before - kept == 1 ? "it has" : "they have", before - kept == 1 ? "s" : ""));
 }
 
 /// Segments at each vertex.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ghost sites. Each rank subscribes to bins of foreign tiles and, in a periodic container, to images of bins (also of
-// its own). Their owners send the sites of these bins at every refresh; the receivers move them to their images.
-// Subscriptions persist and grow on request. This file knows nothing of triangles.
+// Ghost sites. Each rank subscribes to bins of foreign tiles and, in a periodic container, to images of bins, also of
+// bins that it owns. Their owners send the sites of these bins at every refresh; the receivers move them to their
+// images. Subscriptions persist and grow on request. This file knows nothing of triangles.
 //
 // Words, seen from this rank: it *imports* the bins that it subscribes to and *exports* those that others subscribe to.
 // An owned site in an exported bin is a *mirror*, its copy elsewhere a *ghost*.

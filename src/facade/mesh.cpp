@@ -6,6 +6,7 @@
 #include "facade/build_shape.hpp"
 #include "facade/check_options.hpp"
 #include "facade/names.hpp"
+#include "formats/output_files.hpp"
 #include "trime/comm/from_mpi.hpp"
 #include "trime/core/error.hpp"
 #include "trime/core/log.hpp"
@@ -142,17 +143,7 @@ mesh::QualitySummary quality_of(const io::Metadata& metadata) {
   return quality;
 }
 
-/// On rank 0, for all. Collective.
-void refuse_to_replace(const std::vector<std::string>& paths, const comm::Communicator& comm) {
-  comm::run_agreed(comm, [&] {
-    std::error_code error;
-    if (comm.is_root())
-      for (const std::string& path : paths)
-        if (fs::exists(fs::symlink_status(path, error)))
-          throw FileError(
-              fmt::format("{} exists; set WriteOptions::overwrite to replace it, or choose another path", path));
-  });
-}
+constexpr const char* how_to_replace = "set WriteOptions::overwrite to replace it, or choose another path";
 
 void make_directory_of(const fs::path& path, const comm::Communicator& comm) {
   comm::run_agreed(comm, [&] {
@@ -229,9 +220,11 @@ void Mesh::write(const std::string& path, const WriteOptions& options) const {
     target.xdmf = options.xdmf;
     target.is_final = true;
     target.part_markers = origin.part_markers;
-    if (!options.overwrite)
-      refuse_to_replace({target.path(".h5"), target.path(".xdmf"), target.path(".xmf"), target.path(".vtkhdf")}, comm);
-    for (const std::string& warning : io::check_output(target, comm))
+    std::vector<std::string> paths;
+    for (const char* ending : io::mesh_file_endings)
+      paths.push_back(target.path(ending));
+    formats::refuse_to_replace(paths, options.overwrite, how_to_replace, comm);
+    for (const std::string& warning : formats::check_output(target, comm))
       fmt::print(stderr, "warning: {}\n", warning);
     io::write_mesh(target, result().mesh, implementation_->metadata, comm);
     return;
@@ -241,8 +234,7 @@ void Mesh::write(const std::string& path, const WriteOptions& options) const {
     throw ConfigError(fmt::format("{}: expected a path that ends in .h5, or in the ending of another format, such as "
                                   ".msh, .vtu or .geojson",
                                   path));
-  if (!options.overwrite)
-    refuse_to_replace(formats::paths_of(*format, path), comm);
+  formats::refuse_to_replace(formats::paths_of(*format, path), options.overwrite, how_to_replace, comm);
   make_directory_of(file, comm);
   formats::write(*format, path, result().mesh, {origin.part_names, {origin.region}, origin.period, origin.crs}, nullptr,
                  comm);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// About how many points a mesh will have at a factor of the relative size, without laying out its boundary.
+// Estimates how many points a mesh will have at a factor of the relative size, without laying out its boundary.
 #pragma once
 
 #include "fitting/layout_context.hpp"
@@ -10,22 +10,22 @@
 
 namespace trime::fitting {
 
-/// @brief Boundary sites from the integral of ds/h, inner ones from that of h^-2 outside of the strip along a polygon
-/// that stands for the boundary. What corners and narrow places take in addition is not counted: the estimate is low,
-/// by some per cent for a boundary full of them.
+/// @brief Estimates boundary sites from the integral of ds/h, and inner sites from the integral of h^-2 outside the
+/// strip along a polygon that replaces the boundary. It does not count additional sites at corners and narrow places,
+/// so it is too low by a few per cent for a boundary full of them.
 class CountEstimate {
 public:
-  /// @param spacing of the polygon's vertices, where the boundary has so many
-  /// @param coarsening of the integral, see DensitySampler
+  /// @param spacing distance between vertices of the polygon, which has no more vertices than the boundary
+  /// @param coarsening factor on the width of the cells of the integral, see DensitySampler
   CountEstimate(const LayoutContext& context, double points, double spacing, double coarsening);
 
-  /// Nothing if the size at some place of the boundary is no size (the layout tells where), or if the shape is smaller
-  /// than the spacing. Collective.
-  /// @throws GeometryError as integrate_density
+  /// Returns the estimate, or nothing if the shape is smaller than the spacing, or if the size at a place of the
+  /// boundary is invalid (the layout then reports where). Collective.
+  /// @throws GeometryError, see integrate_density
   std::optional<double> points(double factor);
 
-  /// @brief By how much the factor should rather be larger, a guess: where a good part of the boundary sites are
-  /// corners, the size is lowered around many of them. Collective.
+  /// @brief Guesses by how much the factor should be larger. If many of the boundary sites are corners, the size is
+  /// lowered around many of them. Collective.
   double crowding(double factor) const;
 
 private:
@@ -33,9 +33,9 @@ private:
 
   const LayoutContext& context_;
   double points_, coarsening_;
-  sites::Stage reference_;      // the polygon as if it were a mesh boundary, without points
-  double corners_ = 0;          // of the boundary
-  std::vector<double> lengths_; // of the curve from each vertex to its next
+  sites::Stage reference_;      // a stage whose boundary is the polygon, without points
+  double corners_ = 0;          // number of corners of the boundary
+  std::vector<double> lengths_; // length of the curve from each vertex to its next
 };
 
 } // namespace trime::fitting

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How many sites a size asks for inside a shape.
+// Computes how many sites a size asks for inside a shape.
 #pragma once
 
 #include "fitting/layout_context.hpp"
@@ -14,13 +14,13 @@ struct DensityTotals {
   double sites = 0;     ///< inner sites that the size field asks for
   double mean_size = 0; ///< mean of h over these sites
 };
-/// Collective. Threads over the tiles of this rank; integers inside.
-/// @throws GeometryError as DensitySampler::for_each_cell, on all ranks together
+/// Returns the totals over all ranks. Collective. Threads work on the tiles of this rank. Sums are integers inside.
+/// @throws GeometryError on all ranks together, see DensitySampler::for_each_cell
 DensityTotals integrate_density(const comm::Communicator& comm, const mesh::TileRange& tiles,
                                 const placing::DensitySampler& sampler);
 
-/// Inner sites that the size of a stage asks for. @param most_in_part see DensitySampler: with more they are not
-/// counted to the end. Collective. @throws GeometryError as integrate_density
+/// Returns the inner sites that the size of a stage asks for. Collective. @param most_in_part counting ends at this
+/// number, see DensitySampler @throws GeometryError, see integrate_density
 DensityTotals wanted_inside(const LayoutContext& context, const sites::Stage& stage, double coarsening,
                             double most_in_part);
 

@@ -47,7 +47,7 @@ TooFewPoints too_few_points(const LayoutContext& context, double fewest, bool co
     return {fmt::format("points = {} are too few for max_size = {}: expected {}; use more points or a larger max_size",
                         points, *context.options.max_size,
                         std::isfinite(fewest) ? fmt::format("{} {:.0f}", counted ? "at least" : "far more than", fewest)
-                                              : "more than numbers can hold")};
+                                              : "more points than numbers can express")};
   if (const std::size_t inside = context.fixed.inside().size(); inside > 0)
     return {fmt::format("points = {} are too few for this shape: the {} fixed points inside and {:.0f} on "
                         "its boundary add up to {:.0f}. Each corner takes a point, and so does each place "

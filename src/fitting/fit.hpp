@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The size of a mesh: found for the points or the edge length asked for, and what follows from it. The boundary is
-// simplified and laid out here and nowhere else.
+// Finds the size of a mesh for the points or the edge length asked for. All simplification and layout of the boundary
+// is done here.
 #pragma once
 
 #include "fitting/few_points.hpp"
@@ -14,7 +14,7 @@
 namespace trime::fitting {
 
 /// @brief Owns the factor of the size, its limits, the curves at that size, and samples of it. A search finds them;
-/// then stages are laid at that size or a coarser one. A stage shares the curves, which nobody changes. Methods are
+/// then stages are laid out at that size or a coarser one. A stage shares the curves, which do not change. Methods are
 /// collective unless their comment says that they are local.
 class Fit {
 public:
@@ -22,19 +22,18 @@ public:
   Fit(const Fit&) = delete; // stages refer to the sizes of the context
   Fit& operator=(const Fit&) = delete;
 
-  /// Finds the spacing of a lattice for a uniform size. The fit stays as it was: the stage holds its own size.
-  /// @return as fit_lattice @throws as fit_lattice
+  /// Finds the spacing of a lattice for a uniform size. Does not change the fit, because the stage holds the size.
+  /// Results and errors are those of fit_lattice.
   std::variant<LatticeFit, TooFewPoints> find_lattice() const { return fit_lattice(context_); }
-  /// @brief Finds the factor and its limits for any size. @param coarsening of the integral
-  /// @return as fit_density; after too few points the fit is as it was before
-  /// @throws as fit_density
+  /// @brief Finds the factor and its limits for any size. @param coarsening factor on the width of the cells of the
+  /// integral Results and errors are those of fit_density; after too few points the fit is unchanged.
   std::variant<StageFit, TooFewPoints> find_density(double points, double coarsening);
 
   /// Returns true if the uniform size of a lattice would make bad triangles in narrow parts of the shape.
   bool needs_lowering(const sites::Stage& laid) const { return fitting::needs_lowering(context_, laid); }
-  /// Lets the boundary lower a uniform size in places from here on. Local. @pre needs_lowering
+  /// Lets the boundary lower a uniform size at some places from now on. Local. @pre needs_lowering
   void lower_uniform() { context_.lowers_uniform = true; }
-  /// Cuts components that are narrow all over from here on, so that fewer points suffice, and makes a uniform size
+  /// Cuts components that are narrow everywhere from now on, so that fewer points suffice, and makes a uniform size
   /// uniform again. Local. @pre a search found too few points
   void cut_thin_components();
 
@@ -47,17 +46,17 @@ public:
   }
   /// Lays the boundary at a factor that was found elsewhere, with neither guard nor state.
   sites::Stage try_factor(double factor, double expected);
-  /// Adds the boundary sites and the fixed ones to the inner ones, which may lie on any rank, takes out those too near
-  /// to a fixed one, and distributes all.
+  /// Adds boundary sites and fixed points to the inner sites, which may lie on any rank, removes inner sites too near
+  /// to a fixed point, and distributes all.
   void place_sites(sites::Stage& stage, mesh::SiteList inner) const {
     fitting::place_sites(context_, stage, std::move(inner));
   }
 
-  /// Returns what the fit works from. Local.
+  /// Returns the input of the fit. Local.
   const LayoutContext& context() const { return context_; }
   /// Returns the factor of the relative size. Local.
   double factor() const { return fitted_.factor; }
-  /// Returns where the boundary needs smaller triangles than the size that is asked for. Local.
+  /// Returns where the boundary needs smaller triangles than the size asked for. Local.
   std::span<const sizing::SizeLimit> limits() const { return fitted_.limits; }
 
 private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the fit of the size goes by: how many points or which edge length, within which limits, and what of the boundary
-// may be left out.
+// Options of the fit of the size: the number of points or the edge length, the limits of the size, and which features
+// of the boundary may be left out.
 #pragma once
 
 #include "trime/boundary/features.hpp"
@@ -10,7 +10,7 @@
 
 namespace trime::fitting {
 
-/// See MeshOptions for the meaning of each; the defaults are there.
+/// See MeshOptions for the meaning and the default of each option.
 struct FitOptions {
   std::optional<int> cells_x, cells_y;
   std::optional<GlobalId> points; ///< exactly one of points and edge_length is set

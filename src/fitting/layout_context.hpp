@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the search for the size and the layout of a stage work from.
+// The input of the search for the size and of the layout of a stage.
 #pragma once
 
 #include "boundary/fixed_points.hpp"
@@ -14,7 +14,7 @@
 
 namespace trime::fitting {
 
-/// A uniform size that the boundary may lower here and there.
+/// A uniform size that the boundary may lower at some places.
 class GradedSize final : public sizing::SizeField {
 public:
   explicit GradedSize(const sizing::SizeField& size) : size_(size) {}
@@ -24,7 +24,7 @@ private:
   const sizing::SizeField& size_;
 };
 
-/// What the set-up works from. Keeps references; see Mesher.
+/// The input of the set-up. Keeps references; see Mesher.
 struct LayoutContext {
   const comm::Communicator& comm;
   const geometry::Domain& domain;
@@ -32,15 +32,15 @@ struct LayoutContext {
   const FitOptions& options;
   Log& log;
   TimerTable& timers;
-  const boundary::FixedPoints& fixed; ///< with the boundary on which sites are laid
-  bool cuts_thin_components = false;  ///< as generalise::Choice has it: no other boundary has so few points
+  const boundary::FixedPoints& fixed; ///< fixed points, with the boundary on which sites are laid
+  bool cuts_thin_components = false;  ///< see generalise::Choice; set if no other boundary has few enough points
   bool lowers_uniform = false;        ///< the boundary may lower a uniform size: it is treated as a graded one
-  GradedSize graded{relative_size};   ///< what stands for it then
-  const geometry::Boundary& given_boundary = domain.boundary(); ///< without the corners that fixed points make
+  GradedSize graded{relative_size};   ///< the size that is used in that case
+  const geometry::Boundary& given_boundary = domain.boundary(); ///< the boundary without corners at fixed points
   const geometry::Lattice& lattice = domain.frame().lattice();
 
-  /// Returns the size that is asked for with this factor, within the least and the largest size. @pre this context
-  /// outlives it
+  /// Returns the size asked for with this factor, within the smallest and the largest size. @pre this context outlives
+  /// it
   sizing::ScaledSize asked_size(double factor) const {
     const sizing::SizeField& relative = lowers_uniform ? static_cast<const sizing::SizeField&>(graded) : relative_size;
     return {relative, factor, options.min_size.value_or(0), options.max_size.value_or(INFINITY)};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which size a mesh will have, what its boundary will be, and at which size nothing of the shape would be simplified:
-// about, and without making a mesh.
+// Estimates, without making a mesh, which size a mesh will have, what its boundary will be, and at which size no
+// feature of the shape would be simplified.
 #pragma once
 
 #include "fitting/layout_context.hpp"
@@ -8,20 +8,21 @@
 
 namespace trime::fitting {
 
-/// What a run has before it.
+/// The estimate for a run.
 struct LaidOutlook {
-  sites::Stage stage;        ///< boundary sites at about the size of the mesh: neither guard nor state
-  double factor = 1;         ///< of that size
-  double points = 0;         ///< about so many
-  double keeping_factor = 0; ///< the largest found at which nothing is simplified; else the least tried
-  bool keeps = false;        ///< at that factor everything is kept
+  sites::Stage stage; ///< boundary sites at about the size of the mesh, without guard and state
+  double factor = 1;  ///< factor of that size
+  double points = 0;  ///< about the number of points
+  /// Largest factor found at which nothing is simplified, otherwise the smallest factor tried.
+  double keeping_factor = 0;
+  bool keeps = false; ///< true if everything is kept at that factor
 
-  /// About how many points a mesh with a size of another factor has.
+  /// Returns about how many points a mesh with another factor has.
   double points_at(double other) const;
 };
 
-/// @brief The size is fitted for LayoutRules::outlook_points points at most and scaled from there. Then come at most
-/// LayoutRules::outlook_trials simplifications of the boundary, down to the size at which it has
+/// @brief Makes the estimate. It fits the size for at most LayoutRules::outlook_points points and scales it. Then it
+/// simplifies the boundary at most LayoutRules::outlook_trials times, down to the size at which it has
 /// LayoutRules::outlook_sites sites. Collective.
 /// @throws ConfigError if the points are too few for the shape, or the edge length is outside the bounds of the size
 LaidOutlook look_ahead(const LayoutContext& context);

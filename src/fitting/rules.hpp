@@ -9,71 +9,71 @@ namespace trime::fitting {
 
 /// The numbers of the layout of a stage, of its simplified boundary, and of the outlook.
 struct LayoutRules {
-  /// [1] Trials of the size begin with the boundary thinned for sizes so many times smaller than the first. Not
-  /// measured.
+  /// [1] Trials of the size begin with the boundary that was thinned for a size smaller than the first one by this
+  /// factor. Not measured.
   static constexpr double thinned_ahead = 3;
-  /// [1] While the factor of the size changes by a smaller share, the curves are not generalised anew. Not measured.
+  /// [1] If the factor of the size changes by a smaller share, the curves are not simplified again. Not measured.
   static constexpr double same_curves = 0.04;
-  /// [pieces] Boundaries with so many are simplified by one rank for all. With fewer that takes less than 7 MB of
-  /// memory and about as long as the messages. Not measured.
+  /// [pieces] One rank simplifies boundaries with at least this number for all ranks. With fewer pieces, it takes less
+  /// than 7 MB of memory and about as long as the messages. Not measured.
   static constexpr std::int64_t many_pieces = 16384;
-  /// [1] Simplified curves stay by so much nearer to the shape than the certificate wants: factors of sizes are
-  /// rounded. Not measured.
+  /// [1] Simplified curves stay nearer to the shape than the certificate requires by this share, because factors of
+  /// sizes are rounded. Not measured.
   static constexpr double distance_slack = 1e-9;
-  /// [rounds] So often curves that came too far from the shape are made again with smaller sizes at these places; then
-  /// nothing is simplified. Sizes like abs(sin(50 x)) + 1e-7 take 1 or 2. Not measured.
+  /// [rounds] How often curves that are too far from the shape are made again with smaller sizes at these places; after
+  /// that, nothing is simplified. Sizes like abs(sin(50 x)) + 1e-7 need 1 or 2 rounds. Not measured.
   static constexpr int nearer_rounds = 8;
-  /// [h] If the boundary asks for smaller triangles somewhere than this, a uniform size is lowered there. Not measured.
+  /// [h] If the boundary needs triangles smaller than this at a place, a uniform size is lowered there. Not measured.
   static constexpr double lowering_pays = 0.6;
-  /// [1] The integral that fits the size of the last division is taken over cells so many times wider: it errs by a few
+  /// [1] Factor on the width of the cells of the integral that fits the size of the last division. Its error is a few
   /// thousandths.
   static constexpr double coarse_integral = 4;
-  /// [points] The outlook of --dry-run fits the size for so many at most, and scales it from there. Not
-  /// measured.
+  /// [points] The outlook of --dry-run fits the size for at most this number, and scales it. Not measured.
   static constexpr double outlook_points = 1e5;
-  /// [trials] Sizes at which the outlook simplifies the boundary: the last is within some per cent of the largest that
-  /// keeps everything. Not measured.
+  /// [trials] Number of sizes at which the outlook simplifies the boundary. The last is within a few per cent of the
+  /// largest that keeps everything. Not measured.
   static constexpr int outlook_trials = 12;
-  /// [sites] On the boundary: the outlook tries no smaller size, since long walls have as many nodes as that; 3e4 on
-  /// 156 rings with thin gaps took 16 s. It tries one outlook_step in any case. Not measured.
+  /// [sites] The outlook tries no size with more sites on the boundary, because the nodes of long walls grow with them;
+  /// 3e4 on 156 rings with thin gaps took 16 s. It tries one outlook_step in any case. Not measured.
   static constexpr double outlook_sites = 1e4;
-  /// [1] While everything is not kept, the outlook tries so many times smaller sizes. Not measured.
+  /// [1] Until everything is kept, the outlook tries sizes that are smaller by this factor. Not measured.
   static constexpr double outlook_step = 10;
-  /// [samples] Along a side of the box around the shape: between two the slope of the size is looked at. Not measured.
+  /// [samples] Number along a side of the box around the shape. The slope of the size is measured between two samples.
+  /// Not measured.
   static constexpr int slope_samples = 64;
-  /// [1] With `min_size` no more of the chords may be so short before that is told. Coasts have a few in nearly every
-  /// run, at narrow parts where the user has chosen so; the report names the worst triangle anyway. Not measured.
+  /// [1] With `min_size`, the program warns of short chords only if they are more than this share of all. Coasts have a
+  /// few in almost every run, at narrow parts where the user has chosen so; the report names the worst triangle in any
+  /// case. Not measured.
   static constexpr double warned_share_of_chords = 0.01;
 };
 
 /// The numbers of the search for the size that yields the points asked for.
 struct FitRules {
-  /// [1] While the goal is known from one side only, a factor or a spacing changes at least by this share.
+  /// [1] Least change of a factor or a spacing while the bracket has only one end.
   static constexpr double least_step = 0.002;
-  /// [width of the bracket] No trial is nearer than this to the ends of a bracket: counts jump, and a secant alone
-  /// would creep.
+  /// [width of the bracket] Least distance of a trial from the ends of a bracket. Counts jump, and a secant alone would
+  /// converge slowly.
   static constexpr double bracket_margin = 0.1;
-  /// [points asked for] If no more than so many are missing, the trial is accepted, or the size inside makes them up.
+  /// [points asked for] A trial is accepted if at most this share is missing, or the size inside makes up for it.
   static constexpr double close_enough = 0.004;
-  /// [close_enough] The search aims so far below the points asked for, since more of them are not accepted.
+  /// [close_enough] The search aims at fewer points than asked for by this share, because more are not accepted.
   static constexpr double goal_below = 0.4;
-  /// [1] The size may be scaled down so far with the boundary sites left as they are: their chords stay within 2 % of
-  /// h.
+  /// [1] Least factor by which the size may be scaled while boundary sites stay. Their chords stay within 2 % of h.
   static constexpr double least_scale = 0.98;
-  /// [1] The same for scaling up.
+  /// [1] Largest factor by which the size may be scaled while boundary sites stay.
   static constexpr double most_scale = 1.02;
-  /// [uniform h] Estimates go by a polygon with vertices so far apart.
+  /// [uniform h] Distance between the vertices of the polygon of an estimate.
   static constexpr double reference_spacing = 0.25;
-  /// [1] Estimates take the integral over cells at least so many times wider: a layout corrects them anyway.
+  /// [1] Least factor on the width of the cells of the integral of an estimate, which a layout corrects later.
   static constexpr double reference_coarsening = 8;
-  /// [1] The same elsewhere: the points are area over h squared.
+  /// [1] Power of the factor that the number of points follows elsewhere, as the area over h squared.
   static constexpr double uncrowded_power = -2;
-  /// [1] A secant step changes the factor by this ratio at most.
+  /// [1] Largest ratio by which a secant step changes the factor.
   static constexpr double farthest_step = 4;
-  /// [sites] Of a loop in an estimate: no polygon has fewer.
+  /// [sites] Least number of a loop in an estimate, because no polygon has fewer.
   static constexpr double least_sites = 3;
-  /// [points asked for] A part of a tile that has so many sites alone is not looked into any more, in estimates and
-  /// trials: sizes with narrow valleys gave 10^5 times as many on the way to a factor, in a minute. Not measured.
+  /// [points asked for] In estimates and trials, counting ends if a part of a tile alone has this number of sites.
+  /// During a search, sizes with narrow valleys gave 10^5 times as many, and took a minute. Not measured.
   static constexpr double hopelessly_many = 16;
   /// [h] Step of the integral along the boundary in an estimate.
   static constexpr double integral_step = 1;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Layouts at one factor of the size after the other, in search of the factor that yields the points asked for.
+// Makes layouts at one factor of the size after the other, during the search for the factor that yields the points
+// asked for.
 #pragma once
 
 #include "fitting/density_integral.hpp"
@@ -12,56 +13,56 @@
 
 namespace trime::fitting {
 
-/// What came of one factor.
+/// The result of a trial with one factor.
 struct SizeTrial {
   StageFit fit;
   FittedSize fitted;
   DensityTotals totals;
-  double points = 0; ///< on the boundary and inside
+  double points = 0; ///< number of points on the boundary and inside
 };
 
 /// @brief Lays the boundary at a factor and counts the points. The limits that one trial finds, and the samples of the
 /// size, are kept for the next. All methods that lay or count are collective.
 class SizeTrials {
 public:
-  /// @param points about so many are wanted
-  /// @param coarsening of the integral
+  /// @param points about the number of points that are wanted @param coarsening factor on the width of the cells of the
+  /// integral
   SizeTrials(const LayoutContext& context, double points, double coarsening)
       : context_(context), points_(points), coarsening_(coarsening) {}
 
-  /// @brief Boundary sites within the limits that are known. For a factor near by they are scaled with it; those of one
-  /// far away would keep corners that this one leaves out.
+  /// @brief Makes boundary sites within the known limits. For a nearby factor, the limits are scaled with it; limits of
+  /// a distant factor are dropped, because they would keep corners that this one leaves out.
   sites::Stage lay(double factor);
-  /// Looks for more limits, a few times. True if there are any: for other trials, this one was laid without them.
-  /// @param laid what lay() has returned last
+  /// Looks for more limits, at most a few times. Returns true if it finds any, which later trials use. @param laid the
+  /// last result of lay()
   bool find_limits(const sites::Stage& laid);
-  /// How many points a layout will have, or a number that is far too large if it is. @param coarsening of the integral
-  /// @param laid what lay() has returned last
+  /// Counts the points of a layout; if there are far too many, the number is not exact. @param laid the last result of
+  /// lay() @param coarsening factor on the width of the cells of the integral
   SizeTrial count(sites::Stage laid, double coarsening) const;
   /// Lays with all limits that the factor needs, and counts.
   SizeTrial run(double factor);
 
-  /// @brief From now on all trials have the boundary as it was simplified for this one, and its limits: smaller
-  /// triangles need no others.
+  /// @brief Makes all further trials use this simplified boundary and its limits, because smaller triangles need no
+  /// others.
   void hold(const FittedSize& fitted);
 
   double coarsening() const { return coarsening_; }
   std::size_t limits() const { return limits_.size(); }
-  /// So often limits were looked for since the factor last went far.
+  /// How often limits were searched since the factor last changed much.
   int limit_rounds() const { return limit_rounds_; }
 
 private:
   const LayoutContext& context_;
   double points_, coarsening_;
-  std::vector<sizing::SizeLimit> limits_; // found so far
-  double limits_factor_ = 0;              // for which the search for them began
-  int limit_rounds_ = 0;                  // of that search
-  FittedSize fitted_;                     // of the last layout
+  std::vector<sizing::SizeLimit> limits_; // limits found so far
+  double limits_factor_ = 0;              // factor for which the search for limits began
+  int limit_rounds_ = 0;                  // rounds of that search
+  FittedSize fitted_;                     // fitted size of the last layout
 };
 
-/// @brief Smallest relative size at some places around the shape: on its boundary and on a grid over it. The grid
-/// covers places outside of the shape, so bad values are passed over here. Local.
-/// @throws GeometryError if there is no valid one
+/// @brief Returns the smallest relative size at some places: on the boundary of the shape and on a grid over it. The
+/// grid covers places outside the shape, so invalid values are skipped. Local.
+/// @throws GeometryError if no value is valid
 double smallest_sampled_size(const LayoutContext& context);
 
 } // namespace trime::fitting

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A stage at the size that a search has found.
+// The stage at the size that a search has found.
 #pragma once
 
 #include "sites/stage.hpp"
@@ -8,11 +8,11 @@
 
 namespace trime::fitting {
 
-/// A stage without inner sites, and how many there should be.
+/// A stage without inner sites, and how many inner sites it should get.
 struct StageFit {
   sites::Stage stage;
   double inner = 0;
-  std::string shortage; ///< why there will be fewer points than asked for; empty if not
+  std::string shortage; ///< why there will be fewer points than asked for, or empty
 };
 
 } // namespace trime::fitting

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A distributed mesh as the writers of foreign formats see it: rows of points, triangles and boundary edges by labels.
+// Presents a distributed mesh to the writers of foreign formats: as rows of points, triangles and labelled boundary
+// edges.
 #pragma once
 
 #include "io/text_rows.hpp"
@@ -12,13 +13,13 @@
 
 namespace trime::formats {
 
-/// A file, as rows that all ranks write together.
+/// A file as rows that all ranks write together.
 struct FilePlan {
   std::string path;
   std::vector<io::TextRows> rows;
 };
 
-/// Appends the bytes of a value as they lie in memory.
+/// Appends the bytes of a value as they are in memory.
 template <class T>
 void append_bytes(std::string& text, const T& value) {
   text.append(reinterpret_cast<const char*>(&value), sizeof value);
@@ -32,7 +33,7 @@ void append_line(std::string& text, T... values) {
 
 class ExchangeMesh {
 public:
-  /// All arguments outlive this object and the rows that it makes. Collective.
+  /// Collective. @pre all arguments outlive this object and the rows that it makes
   ExchangeMesh(const mesh::DistributedMesh& mesh, const Names& names, const comm::Communicator& comm);
 
   const mesh::DistributedMesh& mesh() const { return mesh_; }
@@ -41,22 +42,22 @@ public:
   GlobalId points() const { return mesh_.point_slab.total; }
   GlobalId triangles() const { return mesh_.triangle_slab.total; }
   GlobalId facets() const { return mesh_.facet_slab.total; }
-  /// Boundary edges of a part, triangles of a region; over all ranks.
+  /// Numbers of boundary edges of a part and of triangles of a region, over all ranks.
   GlobalId facets_of_part(std::size_t part) const { return facets_of_part_[part]; }
   GlobalId triangles_of_region(std::size_t region) const { return triangles_of_region_[region]; }
   geometry::Vec2 lower() const { return lower_; }
   geometry::Vec2 upper() const { return upper_; }
 
-  /// Label of a boundary edge; region of a triangle; label of a point, 0 inside. All by row of this rank.
+  /// Label of a boundary edge, region of a triangle, and label of a point (0 inside), by row of this rank.
   std::int64_t facet_label(std::int64_t row) const { return mesh_.facet_parts[static_cast<std::size_t>(row)] + 1; }
   std::int64_t region(std::int64_t row) const {
     return mesh_.region.empty() ? 1 : mesh_.region[static_cast<std::size_t>(row)];
   }
   std::int64_t point_label(std::int64_t row) const { return point_labels_[static_cast<std::size_t>(row)]; }
 
-  /// Returns rows with a text once; it is the same however the rows are distributed.
+  /// Returns rows that contain a text once, regardless of how rows are distributed.
   io::TextRows once(std::string text) const;
-  /// append(row, global number, value, text) for each row of this rank.
+  /// Calls append(row, global number, value, text) for each row of this rank.
   template <class Append>
   io::TextRows point_rows(const Append& append) const {
     return {std::ssize(mesh_.points), [this, append](std::int64_t row, std::string& text) {
@@ -84,11 +85,11 @@ private:
   const Names& names_;
   const comm::Communicator& comm_;
   std::vector<std::int64_t> facets_of_part_, triangles_of_region_;
-  std::vector<std::int32_t> point_labels_; // by point of the slab
+  std::vector<std::int32_t> point_labels_; // labels by point of the slab
   geometry::Vec2 lower_, upper_;
 };
 
-// The writers; each plans the files whose first is `path`. Collective.
+// The writers of formats. Each plans its files; `path` is the first of them. Collective.
 std::vector<FilePlan> plan_gmsh(const ExchangeMesh& mesh, const std::string& path);
 std::vector<FilePlan> plan_gmsh2(const ExchangeMesh& mesh, const std::string& path);
 std::vector<FilePlan> plan_medit(const ExchangeMesh& mesh, const std::string& path);

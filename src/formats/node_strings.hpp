@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The boundary as strings of points, one for each run of edges with one label: what ocean models call node strings.
+// Divides the boundary into node strings, as ocean models call them: sequences of points, one for each run of edges
+// with one label.
 #pragma once
 
 #include "formats/exchange_mesh.hpp"
@@ -8,12 +9,13 @@ namespace trime::formats {
 
 struct NodeString {
   std::int64_t label = 0;
-  bool is_closed = false;       ///< a whole loop: the first point is not repeated
-  bool is_island = false;       ///< of a loop around a hole
-  std::vector<GlobalId> points; ///< the mesh on the left
+  bool is_closed = false;       ///< true for a whole loop, whose first point is not repeated
+  bool is_island = false;       ///< true if its loop surrounds a hole
+  std::vector<GlobalId> points; ///< points in order, with the mesh on their left
 };
 
-/// On rank 0, by the lowest point of their loops; empty elsewhere. O(edges log edges) there. Collective.
+/// Returns the node strings on rank 0, ordered by the lowest point of their loops, and an empty list on other ranks.
+/// O(edges log edges) on rank 0. Collective.
 std::vector<NodeString> node_strings(const ExchangeMesh& mesh);
 
 } // namespace trime::formats

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Curves that are rougher than the resolution, made as smooth as it.
+// Smooths curves that are rougher than the resolution.
 #pragma once
 
 #include "trime/geometry/boundary.hpp"
@@ -13,15 +13,15 @@ namespace trime::generalise {
 
 struct SmoothedCurves {
   geometry::Boundary boundary;
-  std::int64_t vertices = 0; ///< of the given curves that others stand for
+  std::int64_t vertices = 0; ///< number of vertices of the given curves that were replaced
 };
 
 /// @brief Returns the boundary with its ragged runs smoothed. Where it turns back and forth within about h, curve
-/// shortening flow moves it until the turns are gone, or features of the size `reach` are. Under this flow simple
-/// curves stay simple and do not meet (Grayson, J. Diff. Geom. 26, 1987); each loop keeps its area. Curves that turn
-/// one way only stay, and so do corners with smooth arms, arcs, and vertices that the user has asked for. Next to
-/// these, curves may cross in rare cases; the caller must check. Null if nothing is ragged. Each of a few steps takes
-/// O(pieces + length / h).
+/// shortening flow moves it until these turns, or features of the size `reach`, are gone. Under this flow simple curves
+/// stay simple and do not meet (Grayson, J. Diff. Geom. 26, 1987); each loop keeps its area. Curves that turn one way
+/// only, corners with smooth arms, arcs, and vertices that the user has asked for do not move. Next to these, curves
+/// may cross in rare cases; the caller must check. Null if nothing is ragged. Each of a few steps takes O(pieces +
+/// length / h).
 /// @param reach [h]
 /// @throws GeometryError if a size is not positive and finite
 std::unique_ptr<SmoothedCurves> smooth_ragged_runs(const geometry::Boundary& boundary, const sizing::SizeField& size,

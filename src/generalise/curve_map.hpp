@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The curves of a boundary as constrained edges of a triangulation, and the way back from edges to curves.
+// Represents the curves of a boundary as constrained edges of a triangulation, and finds the curve of an edge.
 #pragma once
 
 #include "generalise/triangulation.hpp"
@@ -19,43 +19,43 @@ public:
   using HalfEdge = Triangulation::HalfEdge;
 
   /// @param size h
-  /// @param inside lattice points that become vertices too, not on the curves: they must lie inside @pre no periods
+  /// @param inside lattice points off the curves that become vertices, too; they must lie inside @pre no periods
   /// @throws GeometryError if a size is not positive and finite
   CurveMap(const geometry::Boundary& boundary, const sizing::SizeField& size, const geometry::Lattice& lattice,
            std::span<const geometry::Vec2> inside = {});
 
-  /// False if the chords between nodes cross, since arcs are too near to others, or if a point that must lie inside
-  /// does not. Then nothing else may be asked.
+  /// Returns false if chords between nodes cross, because arcs are too near to other curves, or if a point that must
+  /// lie inside does not. Then no other function may be called.
   bool is_valid() const { return valid_; }
   const Triangulation& mesh() const { return mesh_; }
   const geometry::Boundary& boundary() const { return boundary_; }
 
-  /// Adds a node in the middle of a constrained edge; false if the lattice is too coarse.
+  /// Adds a node in the middle of a constrained edge. Returns false if the lattice is too coarse.
   bool add_node(Triangulation::HalfEdge e);
 
-  /// h at a vertex; 0 at the corners of the box.
+  /// Returns h at a vertex; 0 at the corners of the box.
   double size(LocalIndex v) const { return size_[at(v)]; }
   bool is_on_curve(LocalIndex v) const { return v >= 4 && !is_held(v); }
-  /// Is it a point that must stay inside?
+  /// Returns whether the vertex is a point that must stay inside.
   bool is_held(LocalIndex v) const { return held_[at(v)] != 0; }
-  /// Has the user asked for this vertex, on the curve or inside?
+  /// Returns whether the user has asked for this vertex, on the curve or inside.
   bool is_kept(LocalIndex v) const { return kept_[at(v)] != 0; }
 
-  /// The neighbours of a vertex on its curve, the shape on the left. O(degree)
+  /// Return the neighbours of a vertex along its curve, with the shape on the left. O(degree)
   LocalIndex next_on_curve(LocalIndex v) const;
   LocalIndex previous_on_curve(LocalIndex v) const;
 
-  /// A way along one piece.
+  /// A stretch of one piece.
   struct Span {
     LocalIndex loop, piece;
     double from, to; ///< arc length from the start of the piece
   };
-  /// Returns the stretch that a half-edge with a mark for its direction stands for.
+  /// Returns the stretch that a half-edge represents. @pre it has a mark for its direction
   Span span_of(HalfEdge e) const;
 
-  /// By triangle: does it lie in the shape? O(triangles)
+  /// Returns for each triangle whether it lies in the shape. O(triangles)
   std::vector<char> inside() const;
-  /// Returns the points that lie inside and not on a curve. O(triangles + the walks from each point to the next)
+  /// Returns the points that lie inside, but not on a curve. O(triangles + the walks from each point to the next)
   std::vector<geometry::Vec2> those_inside(std::span<const geometry::Vec2> points) const;
 
 private:
@@ -78,7 +78,7 @@ private:
   std::vector<double> size_;  // by vertex
   std::vector<char> kept_;    // by vertex
   std::vector<char> held_;    // by vertex
-  std::vector<double> along_; // by vertex: of those that were added, on their piece
+  std::vector<double> along_; // by vertex: place along its piece, for added vertices
   bool valid_ = true;
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The boundary of a shape at the resolution of a mesh: without parts that are narrower than its triangles.
+// Simplifies the boundary of a shape to the resolution of a mesh: removes or widens parts that are narrower than the
+// triangles.
 #pragma once
 
 #include "polygon/polygon.hpp"
@@ -13,16 +14,17 @@
 
 namespace trime::generalise {
 
-/// [h] Simplified curves lie within this distance of the given ones. All shares of h by which they are made belong to
-/// it: for another distance the size is scaled before.
+/// [h] Largest distance of simplified curves from the given ones. All shares of h in this module are chosen for it; for
+/// another distance, the caller scales the size.
 inline constexpr double reference_distance = 0.5;
 
 /// Options of the simplification.
 struct Choice {
-  bool closes_narrow = false;        ///< slits, cracks and walls are closed; else their sides are moved apart
-  bool cuts_thin_components = false; ///< components that are narrow all over are cut to pieces, not widened
-  geometry::Box bounds = {{-INFINITY, -INFINITY},
-                          {INFINITY, INFINITY}}; ///< lattice points; no vertex is moved out of it
+  bool closes_narrow = false; ///< if true, slits, cracks and walls are closed; otherwise their sides are moved apart
+  /// If true, components that are narrow everywhere are cut to pieces; otherwise they are widened.
+  bool cuts_thin_components = false;
+  /// No vertex is moved out of this box, whose corners are lattice points.
+  geometry::Box bounds = {{-INFINITY, -INFINITY}, {INFINITY, INFINITY}};
 };
 
 struct Generalised {
@@ -31,31 +33,33 @@ struct Generalised {
 };
 
 /// @brief Returns the boundary without vertices that are much closer together than this size, in loops that have far
-/// too many of them. Null if there are no such loops, in a periodic container, and where curves would cross. O(n log n)
+/// too many of them. Returns null if there are no such loops, if the container is periodic, or if curves would cross.
+/// O(n log n)
 /// @param size h
-/// @param inside lattice points that must stay inside, else it is null; those outside of the boundary are left out
+/// @param inside lattice points that must stay inside, otherwise the result is null; points outside the boundary are
+/// ignored
 /// @throws GeometryError if a size is not positive and finite
 std::unique_ptr<const geometry::Boundary> thinned(const geometry::Boundary& boundary, const sizing::SizeField& size,
                                                   const geometry::Lattice& lattice,
                                                   std::span<const geometry::Vec2> inside);
 
-/// @brief The boundary without narrow parts for elements of this size; null if it has none.
+/// @brief Returns the boundary without narrow parts for elements of this size; null if it has no narrow parts.
 ///
 /// The curves are the constraints of a Delaunay triangulation of their nodes. Parts whose triangles are all narrow are
-/// dead ends (spits, inlets), passages (necks, straits, walls) or whole components and holes. Those of the shape are
-/// cut where they become wide enough; components that are narrow all over are widened. Those of the outside are kept,
-/// and their sides moved apart, or closed. Triangles that keep their orientation prove that curves do not cross. Then
-/// ragged runs are smoothed, see curve_flow.hpp, and a triangulation of the result proves the same.
-/// Periodic boundaries come back as they are. Deterministic, one thread. O(n log n) for n pieces.
+/// dead ends (spits, inlets), passages (necks, straits, walls) or whole components and holes. Narrow parts of the shape
+/// are cut off where they become wide enough; components that are narrow everywhere are widened. Narrow parts of the
+/// outside are closed, or their sides are moved apart. Triangles that keep their orientation prove that curves do not
+/// cross. Then ragged runs are smoothed, see curve_flow.hpp, and a triangulation of the result proves the same.
+/// Periodic boundaries are returned unchanged. Deterministic, uses one thread. O(n log n) for n pieces.
 /// @param size h
-/// @param inside lattice points that must stay inside: a narrow part with one of them is not cut, and no curve moves
-/// over one. Those that are not inside the given boundary are left out.
+/// @param inside lattice points that must stay inside: a narrow part with such a point is not cut, and no curve moves
+/// over one. Points outside the given boundary are ignored.
 /// @throws GeometryError if a size is not positive and finite
 std::unique_ptr<Generalised> generalise(const geometry::Boundary& boundary, const sizing::SizeField& size,
                                         const geometry::Lattice& lattice, const Choice& choice,
                                         std::span<const geometry::Vec2> inside);
 
-/// Would generalise() change anything? Costs one pass of its several.
+/// Returns whether generalise() would change anything. Takes the time of one of its passes.
 bool would_generalise(const geometry::Boundary& boundary, const sizing::SizeField& size,
                       const geometry::Lattice& lattice, const Choice& choice, std::span<const geometry::Vec2> inside);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Thins curves as far as they do not cross, with the map that proves it.
+// Thins curves as far as they do not cross, and gives the map that proves it.
 #pragma once
 
 #include "generalise/curve_map.hpp"
@@ -11,7 +11,7 @@
 
 namespace trime::generalise {
 
-/// A boundary without its ragged runs, and its map. The map refers to the boundary, and goes before it.
+/// A boundary without its ragged runs, and its map. The map refers to the boundary, and is destroyed before it.
 struct ThinnedMap {
   std::unique_ptr<const geometry::Boundary> thinned; ///< null if nothing was ragged
   std::optional<CurveMap> map;
@@ -19,11 +19,11 @@ struct ThinnedMap {
 
 /// A way to thin curves, see without_ragged_runs.
 struct ThinningTrial {
-  double share; ///< of h
+  double share; ///< [h] see without_ragged_runs
   Thinning thinning;
 };
 
-/// @brief Returns the curves of the first trial that does not make them cross, or nothing. O(n log n) for each trial.
+/// @brief Returns the curves of the first trial in which they do not cross, or nothing. O(n log n) for each trial.
 /// @param inside lattice points that must stay inside, see CurveMap
 /// @throws GeometryError if a size is not positive and finite
 ThinnedMap thinned_map(const geometry::Boundary& boundary, const sizing::SizeField& size,

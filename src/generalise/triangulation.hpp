@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A constrained Delaunay triangulation of a few points of the plane, held by one thread: the map on which narrow parts
-// of a boundary are found. The mesh itself comes from the module delaunay.
+// A constrained Delaunay triangulation of a few points of the plane on one thread, with which narrow parts of a
+// boundary are found. The mesh itself comes from the module delaunay.
 #pragma once
 
 #include "trime/core/types.hpp"
@@ -15,27 +15,27 @@
 
 namespace trime::generalise {
 
-/// @brief Points inside a box, triangulated with the corners of the box; some edges are constrained.
+/// @brief The triangulation of points inside a box and of the corners of the box; some edges are constrained.
 ///
 /// Half-edge 3 t + k of triangle t leads from its vertex k to its vertex k + 1, interior on the left. Vertices 0 to 3
 /// are the corners of the box. Every edge without constraint is locally Delaunay (Lawson 1977; Sloan 1993 for
-/// constraints). All decisions are exact, so the result follows from points, order of insertion and constraints alone.
+/// constraints). All decisions are exact, so the result depends only on points, order of insertion and constraints.
 class Triangulation {
 public:
   using HalfEdge = LocalIndex;
   static constexpr LocalIndex none = -1;
 
-  /// @param box corners are lattice points; all points lie strictly inside
+  /// @param box its corners are lattice points; all points lie strictly inside
   Triangulation(const geometry::Box& box, const geometry::Lattice& lattice);
 
   void reserve(std::size_t points);
-  /// @brief The vertex at p, a new one unless one lies there. O(steps of the walk from the last point); points should
-  /// come in the order of a space-filling curve.
+  /// @brief Returns the vertex at p; makes a new one if no vertex lies there. O(steps of the walk from the last point),
+  /// so points should come in the order of a space-filling curve.
   LocalIndex insert(geometry::Vec2 p);
-  /// @brief Makes the edge from a to b, a constraint that bears `mark` (not negative), and -1 - mark from b to a.
+  /// @brief Makes the edge from a to b, a constraint with `mark` (not negative), and with -1 - mark from b to a.
   /// @return false, without a new constraint, if another vertex or a constraint is in the way
   bool constrain(LocalIndex a, LocalIndex b, std::int32_t mark);
-  /// @brief A new vertex near the constrained edge e, which becomes two edges with its mark.
+  /// @brief Makes a new vertex near the constrained edge e, which becomes two edges with its mark.
   /// @return the vertex, or `none` if p is too near to other vertices for the lattice
   LocalIndex split(HalfEdge e, geometry::Vec2 p);
 
@@ -51,23 +51,24 @@ public:
   /// Returns the opposite half-edge; `none` on the border of the box.
   HalfEdge twin(HalfEdge e) const { return twin_[at(e)]; }
   bool is_constrained(HalfEdge e) const { return mark_[at(e)] != no_mark; }
-  /// Returns the constraint of an edge in its direction, else a negative number.
+  /// Returns the mark of an edge in its direction, otherwise a negative number.
   std::int32_t mark(HalfEdge e) const { return mark_[at(e)] == no_mark ? -1 : mark_[at(e)]; }
-  /// Returns the constraint on which e lies, in either direction. @pre is_constrained(e)
+  /// Returns the mark of the constraint on which e lies, in either direction. @pre is_constrained(e)
   std::int32_t mark_of_edge(HalfEdge e) const { return mark_[at(e)] >= 0 ? mark_[at(e)] : -1 - mark_[at(e)]; }
-  /// The half-edge from a to b; `none` if they are no neighbours. O(degree of a)
+  /// Returns the half-edge from a to b, `none` if they are not neighbours. O(degree of a)
   HalfEdge find_edge(LocalIndex a, LocalIndex b) const;
-  /// A triangle that holds p, inside or on its rim. O(steps of the walk from the last point) @pre p lies in the box
+  /// Returns a triangle that contains p, inside or on its rim. O(steps of the walk from the last point) @pre p lies in
+  /// the box
   LocalIndex triangle_at(geometry::Vec2 p) const { return triangle(locate(p).edge); }
-  /// Some half-edge that leaves v.
+  /// Returns a half-edge that leaves v.
   HalfEdge leaving(LocalIndex v) const { return leaving_[at(v)]; }
-  /// The next half-edge that leaves the same vertex, counter-clockwise; `none` behind the border of the box.
+  /// Returns the next half-edge counter-clockwise that leaves the same vertex; `none` behind the border of the box.
   HalfEdge around(HalfEdge e) const { return twin(previous(e)); }
 
 private:
   static constexpr std::int32_t no_mark = INT32_MIN;
 
-  /// Where a point lies: in the triangle left of `edge`, or on that edge, or at its origin.
+  /// The location of a point: in the triangle left of `edge`, on that edge, or at its origin.
   struct Location {
     HalfEdge edge;
     enum { inside, on_edge, at_origin } kind;
@@ -93,7 +94,7 @@ private:
   std::vector<LocalIndex> origin_; // by half-edge
   std::vector<HalfEdge> twin_;     // by half-edge
   std::vector<std::int32_t> mark_; // by half-edge
-  std::vector<HalfEdge> doubtful_; // edges that legalize looks at
+  std::vector<HalfEdge> doubtful_; // edges that legalize must examine
   mutable HalfEdge last_ = 0;      // where the last search ended
 };
 

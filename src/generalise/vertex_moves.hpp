@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Moves vertices of a boundary: apart where a slit is narrower than the resolution, together where they nearly
-// coincide. No triangle turns over, so no two curves cross.
+// Moves vertices of a boundary: apart where a slit is narrower than the resolution, and together where they almost
+// coincide. No triangle is inverted, so no two curves cross.
 #pragma once
 
 #include "generalise/loop_builder.hpp"
@@ -20,36 +20,37 @@ namespace trime::generalise {
 /// The places of all vertices while some of them move.
 class VertexMoves {
 public:
-  /// @param labels by triangle: 1 inside; they may have changed since the map was made
-  /// @param bounds lattice points; widen() moves no vertex out of it
+  /// @param labels 1 for each triangle that is inside; may have changed since the map was made
+  /// @param bounds box whose corners are lattice points; widen() moves no vertex out of it
   VertexMoves(const CurveMap& map, const std::vector<char>& labels, const geometry::Lattice& lattice,
               const geometry::Box& bounds);
 
   /// @brief Moves the sides of narrow parts apart, each by half of the missing width, and less towards the ends of a
-  /// slit. A vertex that would turn a triangle over is moved less, or not at all. Parts that are nearly wide enough
-  /// everywhere stay.
-  /// @return how many parts were too narrow. O(triangles) a round, and rounds are few
+  /// slit. A vertex that would invert a triangle is moved less, or not at all. Parts that are almost wide enough
+  /// everywhere are not changed.
+  /// @return how many parts were too narrow. O(triangles) in each of a few rounds
   std::int64_t widen(std::vector<NarrowPart> parts);
-  /// Joins neighbouring corners that are nearer to each other than a small share of h: steps, blunt tips.
+  /// Joins neighbouring corners that are nearer to each other than a small share of h, such as those of steps and blunt
+  /// tips.
   void merge_close_corners();
 
   bool any() const { return any_; }
   const MovedVertices& places() const { return places_; }
-  /// Largest distance over h that a vertex has moved.
+  /// Returns the largest distance over h that a vertex has moved.
   double largest_share() const;
 
 private:
   using HalfEdge = Triangulation::HalfEdge;
   double turn_at(HalfEdge e) const;
-  /// Has no other vertex been moved to it?
+  /// Returns true if no other vertex was moved to it.
   bool is_alone(LocalIndex v) const { return is_root_[at(v)] == 0; }
   bool leaves_a_loop(HalfEdge e) const;
   void merge(LocalIndex u, LocalIndex v);
   bool turns_over(LocalIndex t) const;
-  /// The sides of a narrow part, and the ends of slits there.
+  /// The sides of a narrow part, and the ends of its slits.
   struct Sides {
     struct AtVertex {
-      double gap = INFINITY; // distance of the other side
+      double gap = INFINITY; // distance to the other side
       geometry::Vec2 away;   // from the middle of the part: sum of normals
     };
     std::map<LocalIndex, AtVertex> vertices;

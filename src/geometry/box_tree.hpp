@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds which of many boxes meet another one.
+// Finds which of many boxes meet a given box.
 #pragma once
 
 #include "trime/core/types.hpp"
@@ -11,22 +11,22 @@
 
 namespace trime::geometry {
 
-/// @brief Boxes around boxes, in a binary hierarchy that is divided along x or y, whichever is longer: boxes along one
-/// line are as good as others. Immutable and thread-safe after it is built.
+/// @brief A binary hierarchy of boxes, which is divided along x or y, whichever extent is longer. So it is also fast
+/// for boxes along one line. Immutable and thread-safe after it is built.
 class BoxTree {
 public:
   BoxTree() = default;
   /// O(n log n). @pre no box is empty, all numbers are finite
   explicit BoxTree(std::span<const Box> boxes);
 
-  /// Calls visit(index) once for each of the boxes that meets `box`, both closed, in the order of the tree. For boxes
-  /// that do not pile up O(log n + found).
+  /// Calls visit(index) once for each box that meets `box`, in the order of the tree. Boxes are closed. O(log n +
+  /// found) if few boxes overlap.
   template <class Visit>
   void for_each_meeting(const Box& box, const Visit& visit) const {
     if (!items_.empty())
       visit_node(1, {0, items_.size()}, box, visit);
   }
-  /// Returns them as a list, ascending.
+  /// Returns the indices of all boxes that meet `box`, in ascending order.
   std::vector<std::size_t> meeting(const Box& box) const;
 
 private:

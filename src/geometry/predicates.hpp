@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exact predicates for points of one lattice (lattice.hpp) inside its container or within twice its size around it;
-// the diametral disc of a segment, which makes it an edge of the Delaunay triangulation if it is free of other sites
-// (Gabriel); sides of lines for a point that is moved by (epsilon^2, epsilon), which is never on the line.
+// Exact predicates for points of one lattice (lattice.hpp), in its container or within twice its size around it.
 #pragma once
 
 #include "trime/geometry/lattice.hpp"
@@ -9,7 +7,8 @@
 
 namespace trime::geometry {
 
-/// @brief Sign of the area of the triangle a, b, c: +1 counter-clockwise, 0 collinear, -1 clockwise. Exact.
+/// @brief Returns the sign of the area of the triangle a, b, c: +1 if counter-clockwise, 0 if collinear, -1 if
+/// clockwise. Exact.
 ///
 /// The differences of lattice points are exact, and rounding is monotone: if the two rounded products differ, so do
 /// the products, in the same sense. Only equal rounded products need their rounding errors (two fused products).
@@ -28,13 +27,13 @@ inline int orient2d(Vec2 a, Vec2 b, Vec2 c) {
 /// four different points where a, b, c are not collinear.
 ///
 /// Cocircular points are decided as if the lifted height x^2+y^2 of each point were raised by an infinitesimal. It is
-/// the larger the later the point comes in lexicographic order (symbolic perturbation, Devillers and Teillaud 2011). So
-/// the answer depends on the coordinates alone. A float filter (Shewchuk 1997, error bound A) decides nearly all
-/// calls; the rest are evaluated in 192-bit integers on lattice steps.
+/// larger for points later in lexicographic order (symbolic perturbation, Devillers and Teillaud 2011). So the answer
+/// depends on the coordinates alone. A float filter (Shewchuk 1997, error bound A) decides nearly all calls; the rest
+/// are evaluated in 192-bit integers on lattice steps.
 int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice);
 
-/// @brief The answer of in_circle where its float filter is sure of it, else 0. Inline and without branches, for loops
-/// over many quadruples that vectors can do.
+/// @brief Returns the result of in_circle if its float filter is certain, otherwise 0. It is inline and without
+/// branches, so that the compiler can vectorise loops over many quadruples.
 inline int in_circle_filter(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   const double ax = a.x - d.x, ay = a.y - d.y, bx = b.x - d.x, by = b.y - d.y, cx = c.x - d.x, cy = c.y - d.y;
   const double bxcy = bx * cy, cxby = cx * by, cxay = cx * ay, axcy = ax * cy, axby = ax * by, bxay = bx * ay;
@@ -47,16 +46,15 @@ inline int in_circle_filter(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   return (determinant > error_bound * permanent) - (determinant < -error_bound * permanent);
 }
 
-/// Gives the answer of in_circle without the filter: for tests, and when the filter is not sure.
+/// Returns the result of in_circle without the filter: for tests, and if the filter is not certain.
 int in_circle_exact(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice);
 
-/// @brief As in_circle, in a periodic container: images of the four points give the same answer. Ties are broken by the
-/// order of the canonical images, so all images of four points agree. Without periods it is equal to the function
-/// above.
+/// @brief As in_circle, in a periodic container, where images of the four points give the same result. Ties are broken
+/// by the order of the canonical images, so all images of four points agree. Without periods it is the function above.
 int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice, const Periods& periods);
 
-/// @brief -1 if p lies strictly inside the circle with diameter a-b, 0 on it, +1 outside: the sign of (a-p).(b-p).
-/// Exact for points of one lattice, by the argument of orient2d.
+/// @brief Returns -1 if p lies strictly inside the circle with diameter a-b, 0 on it, +1 outside: the sign of
+/// (a-p).(b-p). Exact for points of one lattice, by the argument of orient2d.
 inline int diametral_side(Vec2 a, Vec2 b, Vec2 p) {
   const double apx = a.x - p.x, apy = a.y - p.y, bpx = b.x - p.x, bpy = b.y - p.y;
   const double left = apx * bpx, right = -(apy * bpy);
@@ -68,19 +66,19 @@ inline int diametral_side(Vec2 a, Vec2 b, Vec2 p) {
   return (left_error > right_error) - (left_error < right_error);
 }
 
-/// Side of a line of direction d to which the move leads; 0 only if d is zero.
+/// Returns the side of a line of direction d to which the move leads; 0 only if d is zero.
 inline int side_of_move(Vec2 d) {
   return d.x != 0 ? (d.x > 0 ? 1 : -1) : (d.y < 0) - (d.y > 0);
 }
 
-/// Side of the line a-b on which the point moved from q lies; 0 only if a == b.
+/// Returns the side of the line a-b on which the moved point q lies; 0 only if a == b.
 inline int perturbed_side(const Segment& s, Vec2 q) {
   const int sign = orient2d(s.a, s.b, q);
   return sign != 0 ? sign : side_of_move(s.b - s.a);
 }
 
-/// Does the segment cross the way from p to q, both moved? Along any way between two points the even-odd rule changes
-/// sides with each segment of closed polygons that does.
+/// Returns whether the segment crosses the way from p to q, where both are moved. By the even-odd rule, each segment of
+/// closed polygons that crosses a way changes the side.
 inline bool crosses_way(const Segment& s, Vec2 p, Vec2 q) {
   if (p == q || perturbed_side(s, p) == perturbed_side(s, q))
     return false;

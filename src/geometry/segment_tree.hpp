@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which segments may meet another one, also among long slanted ones that lie side by side.
+// Finds which of many segments may meet a given one, also among long slanted segments that lie next to each other.
 #pragma once
 
 #include "trime/core/types.hpp"
@@ -11,18 +11,18 @@
 
 namespace trime::geometry {
 
-/// @brief Turned boxes around segments of like direction, in a binary hierarchy.
+/// @brief A binary hierarchy of rotated boxes around segments of similar direction.
 ///
-/// In square cells n parallel segments, thin against their length, are all in each other's company. A group of them
-/// here has a box along their mean direction, and is divided by direction, across or along it, whatever makes its parts
-/// smaller. O(n log n) to build, O(n) memory; immutable and thread-safe after.
+/// In a grid of square cells, n long parallel segments close to each other would all share cells. Here a group of
+/// segments has a box along their mean direction. It is divided by direction, or across or along the box, whichever
+/// makes its parts smallest. O(n log n) to build, O(n) memory; immutable and thread-safe after it is built.
 class SegmentTree {
 public:
-  /// @param margin how near a segment counts as one that is met
+  /// @param margin a segment at most this far away counts as meeting
   explicit SegmentTree(std::span<const Segment> segments, double margin = 0);
 
-  /// Calls visit(index) for every segment that may meet `segment`, each once, until it returns false; never misses one
-  /// that does meet it. For segments that do not cross O(log n + found).
+  /// Calls visit(index) once for every segment that may meet `segment`, until it returns false. It visits all segments
+  /// that do meet it. O(log n + found) for segments that do not cross.
   template <class Visit>
   void for_each_near(const Segment& segment, const Visit& visit) const {
     if (!order_.empty())
@@ -36,11 +36,11 @@ public:
   }
 
 private:
-  /// The box of a node: all its segments lie in center + u along + v across, |u| <= half.x, |v| <= half.y.
+  /// The box of a node. All its segments lie in center + u along + v across, with |u| <= half.x, |v| <= half.y.
   struct Turned {
     Vec2 center, along{1, 0}, half;
   };
-  /// The target of a search: a segment, as a box without width, or a box that is not turned.
+  /// The target of a search: a segment, which is a box without width, or a box that is not rotated.
   struct Frame : Turned {
     explicit Frame(const Segment& segment);
     explicit Frame(const Box& box);
@@ -66,10 +66,10 @@ private:
   }
 
   static constexpr std::size_t run_length = 2;
-  std::span<const Segment> segments_; // while it is built
+  std::span<const Segment> segments_; // used only while the tree is built
   std::vector<LocalIndex> order_;
   std::vector<Turned> nodes_; // heap order: the root is 1, the children of k are 2k and 2k+1
-  double slack_;              // the margin, and for rounding
+  double slack_;              // the margin, and an allowance for rounding
 };
 
 } // namespace trime::geometry

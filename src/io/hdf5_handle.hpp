@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// HDF5 identifiers that close themselves, and the text of HDF5's error stack. Nothing here talks to other ranks except
-// where HDF5 itself does (files).
+// HDF5 identifiers that close themselves, and the text of the error stack of HDF5. Nothing here communicates, except
+// when HDF5 itself does (files).
 #pragma once
 
 #include <hdf5.h>
@@ -10,11 +10,11 @@
 
 namespace trime::io {
 
-/// @brief Returns the innermost error of the last failed call, in one line; the words of the system (such as "No space
-/// left on device") where HDF5 passes them on. Empties the stack.
+/// @brief Returns the innermost error of the last failed call in one line, with the message of the system (such as "No
+/// space left on device") if HDF5 has it. Empties the stack.
 std::string hdf5_error_text();
 
-/// Turns off HDF5's own printing of errors: they come as exceptions.
+/// Stops HDF5 from printing errors, because they become exceptions.
 void silence_hdf5();
 
 /// @throws FileError "cannot `action`: reason" if `code` (identifier or status) is negative
@@ -22,12 +22,12 @@ hid_t checked(hid_t code, const std::string& action);
 
 using Hdf5Close = herr_t (*)(hid_t);
 
-/// Move-only identifier.
+/// An identifier that can only be moved.
 template <Hdf5Close close_function>
 class Hdf5Handle {
 public:
   Hdf5Handle() = default;
-  /// Takes what a function of HDF5 has returned; negative: there is nothing to close.
+  /// Takes the result of an HDF5 function. If it is negative, there is nothing to close.
   explicit Hdf5Handle(hid_t id) noexcept : id_(id) {}
   /// @throws FileError as `checked`
   Hdf5Handle(hid_t id, const std::string& action) : id_(checked(id, action)) {}
@@ -38,18 +38,18 @@ public:
   }
   ~Hdf5Handle() {
     if (id_ >= 0)
-      close_function(id_); // only on the way out of an error may this fail unseen
+      close_function(id_); // a failure is ignored here, so it may only happen after another error
   }
 
   operator hid_t() const { return id_; }
-  /// Closes now. @return the status, negative for failure
+  /// Closes the identifier. @return the status, negative on failure
   herr_t close() noexcept { return id_ < 0 ? 0 : close_function(std::exchange(id_, -1)); }
 
 private:
   hid_t id_ = -1;
 };
 
-/// Calls H5Fclose, and remembers a failure for `hdf5_cannot_end`.
+/// Calls H5Fclose, and notes a failure for `hdf5_cannot_end`.
 herr_t close_file(hid_t file) noexcept;
 
 using Hdf5File = Hdf5Handle<close_file>;

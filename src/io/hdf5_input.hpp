@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A finished HDF5 file, read by one rank for itself. Every error names the file and the object.
+// Reads a finished HDF5 file on one rank. Every error names the file and the object.
 #pragma once
 
 #include "io/hdf5_handle.hpp"
@@ -17,26 +17,27 @@ public:
   explicit Hdf5Input(const std::string& path);
 
   bool has(const std::string& object) const;
-  /// Attributes and columns of a group; the groups and texts in it.
+  /// Attributes and columns of a group, and the groups and texts in it.
   std::vector<Attribute> attributes(const std::string& group) const;
   std::vector<Column> columns(const std::string& group) const;
   std::vector<Text> texts(const std::string& group) const;
   std::vector<std::string> groups(const std::string& group) const;
 
-  /// @brief Returns the rows of a dataset in the whole file. @throws FileError if the file cannot hold that many,
-  /// because the caller allocates this number.
+  /// @brief Returns the rows of a dataset in the whole file. @throws FileError if the file is too small for this
+  /// number, because the caller allocates that many.
   std::int64_t rows(const std::string& dataset) const;
   /// @brief Reads rows [first, first + count) into `out`, which has room for them.
-  /// @param columns as the dataset must have them; 0: one-dimensional
+  /// @param columns number of columns that the dataset must have; 0 if it must be one-dimensional
   void read(const std::string& dataset, hid_t type, hsize_t columns, std::int64_t first, std::int64_t count,
             void* out) const;
 
 private:
   Hdf5Dataset open_dataset(const std::string& dataset) const;
-  /// Before memory is asked for: does the file hold as much as a dataset claims to have? @throws FileError
+  /// Checks, before memory is allocated, that the file is as large as the dataset claims. @throws FileError if it is
+  /// not
   void check_claim(hid_t dataset, hid_t type, hid_t space, const std::string& name) const;
   Hdf5Group open_group(const std::string& group) const;
-  /// Names of the members of one kind, in their order. @param name of the group, for messages
+  /// Returns the names of the members of one kind, in their order. @param name the name of the group, for messages
   std::vector<std::string> members(hid_t group, const std::string& name, H5O_type_t kind) const;
 
   std::string path_;

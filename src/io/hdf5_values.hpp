@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Attributes and small datasets in the types and spaces of HDF5. Nothing here touches a file.
+// Converts attributes and small datasets to types and spaces of HDF5. Nothing here accesses a file.
 #pragma once
 
 #include "io/hdf5_handle.hpp"
@@ -11,10 +11,10 @@
 
 namespace trime::io {
 
-/// The space of an array. @param columns 0: of one dimension
+/// Returns the space of an array. @param columns 0 for one dimension
 Hdf5Space array_space(hsize_t rows, hsize_t columns);
 
-/// Values of an attribute or of a small dataset, ready to be written.
+/// The values of an attribute or of a small dataset, ready to be written.
 struct SmallValues {
   Hdf5Type type;
   Hdf5Space space;

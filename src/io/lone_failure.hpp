@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Handles an error that one rank has in a collective call of MPI-IO, while the others wait in it without end.
+// Handles an error of one rank in a collective call of MPI-IO, in which the other ranks would wait without end.
 #pragma once
 
 #include <chrono>
@@ -10,25 +10,25 @@
 
 namespace trime::io {
 
-/// @brief Ends the job if the other ranks do not learn of an error in time.
+/// @brief Ends the job if the other ranks do not get to know about an error in time.
 ///
-/// Open MPI and ROMIO leave a collective write on the rank whose disk fails, and keep the others in it. From there no
-/// message reaches them: only the launcher can end them.
+/// In Open MPI and ROMIO, the rank whose disk fails leaves a collective write, and the others stay in it. There they
+/// receive no message, so only the launcher can end them.
 class LoneFailure {
 public:
-  /// More than a slow file system needs for one collective call, less than a user waits for an answer.
+  /// Longer than one collective call takes on a slow file system, and shorter than users wait for an answer.
   static constexpr std::chrono::seconds usual_patience{20};
 
-  /// @param path the temporary file, which is removed if the job ends
+  /// @param path the temporary file, which is removed when the job ends
   explicit LoneFailure(std::string path, std::chrono::milliseconds patience = usual_patience)
       : path_(std::move(path)), patience_(patience) {}
-  /// All ranks have come to where they agree on the error.
+  /// Must run when all ranks have reached the place where they agree on the error.
   ~LoneFailure();
   LoneFailure(const LoneFailure&) = delete;
   LoneFailure& operator=(const LoneFailure&) = delete;
 
-  /// From now on the others have so much time. Then the message goes to stderr and this process ends with the exit code
-  /// of a FileError. Without a thread to be had nothing happens.
+  /// Starts the time that the other ranks have. After it, prints the message on stderr and ends this process with the
+  /// exit code of a FileError. Does nothing if no thread can be started.
   void begin(const std::string& message) noexcept;
 
 private:
@@ -37,7 +37,7 @@ private:
   const std::string path_;
   const std::chrono::milliseconds patience_;
   std::string message_;
-  std::mutex mutex_; // for what follows
+  std::mutex mutex_; // guards the members below
   std::condition_variable changed_;
   bool is_known_ = false;
   std::thread thread_;

@@ -2,7 +2,6 @@
 #include "trime/io/mesh_file.hpp"
 
 #include "comm/agree.hpp"
-#include "io/output_files.hpp"
 #include "io/slab_file.hpp"
 #include "io/temporary_file.hpp"
 #include "io/xdmf.hpp"
@@ -274,7 +273,7 @@ void check_shapes(const mesh::DistributedMesh& mesh) {
 /// Rank 0: final names, and the views that belong to them.
 WrittenFiles publish(TemporaryFile& temporary, const MeshFileOptions& options, const mesh::DistributedMesh& mesh) {
   const std::string h5 = options.path(".h5"), xdmf = options.path(".xdmf"), vtkhdf = options.path(".vtkhdf"),
-                    facets = facet_view(options);
+                    facets = options.path(".xmf");
   temporary.rename_to(h5, options.overwrite);
   if (options.is_final && options.run_files)
     options.run_files->set_final_mesh_written();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Points of a distributed mesh by their global ids, wherever they lie.
+// Finds points of a distributed mesh by their global ids, on any rank.
 #pragma once
 
 #include "trime/comm/communicator.hpp"
@@ -9,7 +9,7 @@
 
 namespace trime::io {
 
-/// Place of a point and the target edge length there.
+/// The place of a point and the target edge length there.
 struct MeshPoint {
   geometry::Vec2 position;
   double size = 0;
@@ -18,7 +18,7 @@ struct MeshPoint {
 /// @brief Fetches points from the ranks that hold them, and keeps them. Memory: 32 bytes per different id.
 class PointLookup {
 public:
-  /// @param wanted global ids of points of the mesh, in any order, repeated or not
+  /// @param wanted global ids of points of the mesh, in any order, possibly repeated
   /// @note Collective; two sparse exchanges.
   PointLookup(const mesh::DistributedMesh& mesh, std::vector<GlobalId> wanted, const comm::Communicator& comm);
 

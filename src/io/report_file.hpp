@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The report of a run as one JSON file: for scripts that compare many runs, also of runs that write no mesh. What it
-// holds is described in src/files.md, "The report as JSON".
+// The report of a run as one JSON file, for scripts that compare many runs, including runs that write no mesh. The
+// section "The report as JSON" of src/files.md describes its content.
 #pragma once
 
 #include "trime/comm/communicator.hpp"
@@ -15,20 +15,20 @@ namespace trime::io {
 /// members.
 inline constexpr int report_version = 1;
 
-/// The end of a run, in addition to its metadata.
+/// How a run ended, in addition to its metadata.
 struct Outcome {
   int exit_code = 0;
-  std::vector<std::string> files; ///< that were written
+  std::vector<std::string> files; ///< paths of the written files
 };
 
 /// @brief {"format": "trime_mpi-report", "format_version": 1, "exit_code", "files": [...], "attributes": {name: value},
 /// "groups": {group: {"attributes": {...}, "columns": {name: [values]}}}}. Attributes and groups have the names of the
-/// group /trime_mpi of a mesh file; the texts are left out. Numbers that are not finite become null, and bytes that are
-/// no UTF-8 are replaced, since JSON cannot hold them.
+/// group /trime_mpi of a mesh file; texts are left out. Numbers that are not finite become null, and bytes that are not
+/// UTF-8 are replaced, because JSON cannot hold them.
 std::string report_json(const Metadata& metadata, const Outcome& outcome);
 
-/// @brief Sees that the file can be written, and that no link, pipe or device would be replaced by it; to be called
-/// before work starts that would be lost.
+/// @brief Checks that the file can be written and would not replace a link, pipe or device. Called before work starts
+/// that would be lost.
 /// @throws FileError on all ranks
 /// @note Collective.
 void check_report_file(const std::string& path, const comm::Communicator& comm);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An HDF5 file that all ranks write together: large arrays as one contiguous slab per rank, in slices; small things
-// (attributes, columns, texts) the same on every rank. After each step the ranks agree on errors, so that all of them
-// throw together and none is left waiting.
+// An HDF5 file that all ranks write together. Each rank writes a contiguous slab of each large array, in slices.
+// Attributes, columns and texts are small and the same on every rank. After each step the ranks agree on errors, so
+// that all of them throw together and no rank is left waiting.
 #pragma once
 
 #include "io/hdf5_handle.hpp"
@@ -20,13 +20,13 @@
 
 namespace trime::io {
 
-/// An array of `slab.total` rows over all ranks. The rows are made on demand, slice by slice, so that no second copy of
-/// an array is held; by several threads at once, while another slice is written or read.
+/// An array of `slab.total` rows over all ranks. The rows are made on demand, slice by slice, so there is no second
+/// copy of an array. Several threads make a slice while another one is written or read.
 struct SlabArray {
   std::string path;
   hid_t type = -1;             ///< native type of one value, in memory and in the file
-  std::size_t value_bytes = 0; ///< its size
-  hsize_t columns = 0;         ///< 0: one-dimensional
+  std::size_t value_bytes = 0; ///< size of one value
+  hsize_t columns = 0;         ///< 0 for a one-dimensional array
   mesh::Slab slab;
   std::int64_t rows = 0; ///< rows of this rank
   /// Writes rows [first, first + count) of this rank to `out`; must give the same bytes at each call.
@@ -39,30 +39,32 @@ struct SlabArray {
 class SlabFile {
 public:
   /// @brief Creates or empties the file. One rank uses the plain driver, several MPI-IO.
-  /// @param bytes the size that it will have: the file system is asked for this room before anything is written, where
-  /// it can be. When a disk fills up inside a collective write, Open MPI reports it only to some of the ranks, and the
-  /// others wait without end. So it is better to know before.
+  /// @param bytes the size that the file will have, which is reserved on the file system before anything is written, if
+  /// possible. If a disk becomes full during a collective write, Open MPI reports it only to some of the ranks, and the
+  /// others wait without end.
   SlabFile(const comm::Communicator& comm, std::string path, std::int64_t bytes = 0);
 
   void group(const std::string& path);
   void hard_link(const std::string& existing, const std::string& path);
-  /// `object` is the path of a group or dataset. Texts are shortened to longest_attribute.
+  /// Writes an attribute of `object`, which is the path of a group or dataset. Texts are shortened to
+  /// longest_attribute.
   void attribute(const std::string& object, const Attribute& attribute);
   void attribute(const std::string& object, const std::string& name, std::span<const std::int64_t> values);
-  /// Text of exactly its own length, ASCII, no terminator: what readers of VTKHDF ask for.
+  /// Writes an ASCII text of exactly its length without terminator, as readers of VTKHDF require.
   void ascii_attribute(const std::string& object, const std::string& name, const std::string& text);
   void column(const std::string& group, const Column& column);
   void text(const std::string& path, const std::string& text);
-  /// Keeps the array open, and a copy of its description, for verify().
+  /// Writes an array. Keeps it open, with a copy of its description, for verify().
   void slab(SlabArray array);
-  /// Reads every slab back and compares each byte with what its rank holds; flushes. Once, after all slabs.
+  /// Flushes the file, reads every slab back, and compares each byte with the data of its rank. Called once, after all
+  /// slabs.
   void verify();
   void close();
 
 private:
   // A collective call of HDF5 has three steps, so that no rank leaves while others wait in it. First the ranks prepare
-  // everything that may throw, and agree on errors. Then all ranks make the call, with nothing before it. Then they
-  // agree on its result.
+  // everything that may throw, and agree on errors. Then all ranks make the call at once. Then they agree on its
+  // result.
   template <class Work>
   void agreed(const Work& work) const;
   template <class Work>
@@ -88,11 +90,11 @@ private:
 
   const comm::Communicator& comm_;
   std::string path_;
-  WriteBack write_back_; // ends after the file is closed
+  WriteBack write_back_; // must end after the file is closed
   Hdf5File file_;
   std::vector<Written> written_;
-  SliceBuffer slice_, other_slice_;              // the one that is written or was read, and the next
-  std::vector<UnsetVector<std::byte>> expected_; // by thread: what should have been read
+  SliceBuffer slice_, other_slice_;              // the slice that is written or was read, and the next one
+  std::vector<UnsetVector<std::byte>> expected_; // by thread: the bytes that should have been read
 };
 
 } // namespace trime::io

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Memory for what is copied to and from files.
+// Memory for data that is copied to and from files.
 #pragma once
 
 #include "trime/core/types.hpp"
@@ -10,12 +10,12 @@
 
 namespace trime::io {
 
-/// @brief Bytes, not set, that lie half a page off from their place in the file, counted modulo the page size. Where
-/// the two differ by a few bytes only, processors take loads for loads of what was just stored, and copies between the
-/// buffer and the pages of the file are ten times slower. Aligned to cache lines.
+/// @brief A buffer of bytes that are not set. Modulo the page size, its address differs by half a page from the place
+/// in the file. If the two were almost equal, processors would mistake loads for loads of just stored data, and copies
+/// between the buffer and the pages of the file would be ten times slower. Aligned to cache lines.
 class SliceBuffer {
 public:
-  /// @param place of the first byte, from the begin of the file; forgets what the buffer held
+  /// @param place the position of the first byte in the file; the old content of the buffer is lost
   void resize(std::size_t bytes, std::uint64_t place) {
     memory_.resize(bytes + page);
     const std::uintptr_t wanted = (static_cast<std::uintptr_t>(place) + page / 2) / line * line;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A file with the state of a run: named values, texts and columns, and arrays that are distributed over the ranks. This
-// module knows nothing of their meaning.
+// A file with the state of a run: named values, texts and columns, and distributed arrays. This module does not know
+// what they mean.
 #pragma once
 
 #include "trime/comm/communicator.hpp"
@@ -21,27 +21,27 @@ class RunFiles;
 /// The type of the elements of an array.
 enum class ValueKind { float64, int64, int32, uint8 };
 
-/// An array over all ranks, in the group that its path begins with. The rows are made on demand, see SlabArray.
+/// A distributed array in the group with which its path begins. The rows are made on demand, see SlabArray.
 struct StateArray {
   std::string path; ///< "group/name"
   ValueKind kind;
-  int columns; ///< 0: one-dimensional
+  int columns; ///< 0 for a one-dimensional array
   mesh::Slab slab;
-  std::int64_t rows; ///< of this rank
+  std::int64_t rows; ///< rows of this rank
   std::function<void(std::int64_t first, std::int64_t count, std::byte* out)> fill;
 };
 
-/// @brief Writes the file, reads every array back and compares it, and renames it; an older file of this name stays
-/// until then. Writes the metadata of rank 0. Their groups may also hold arrays.
-/// @param files notes the temporary file; may be null
-/// @throws FileError on all ranks together; the temporary file is removed then
+/// @brief Writes the file, reads every array back, compares it, and renames the file; an older file of this name stays
+/// until then. Writes the metadata of rank 0, whose groups may also hold arrays.
+/// @param files keeps track of the temporary file; may be null
+/// @throws FileError on all ranks together, after removing the temporary file
 /// @note Collective. Ranks may hold nothing.
 void write_state_file(const std::string& path, RunFiles* files, const Metadata& metadata,
                       const std::vector<StateArray>& arrays, const comm::Communicator& comm);
 
-/// @brief The metadata of such a file, one-dimensional arrays of the groups named among their columns.
-/// @param groups others have no columns in the result
-/// @throws FileError on all ranks together if there is no such file
+/// @brief Reads the metadata of such a file. One-dimensional arrays of the given groups are among their columns.
+/// @param groups groups whose columns are read
+/// @throws FileError on all ranks together if the file cannot be read
 /// @note Collective.
 Metadata read_state_metadata(const std::string& path, const std::vector<std::string>& groups,
                              const comm::Communicator& comm);

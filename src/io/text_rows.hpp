@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A text file that all ranks write together: each makes the lines of its rows, in the order of the ranks, so that the
-// bytes do not depend on how the rows are distributed. Rank 0 alone touches the file.
+// A text file that all ranks write together. Each rank makes the lines of its rows, which follow in the order of the
+// ranks, so the bytes do not depend on how the rows are distributed. Only rank 0 accesses the file.
 #pragma once
 
 #include "trime/comm/communicator.hpp"
@@ -17,7 +17,8 @@ class RunFiles;
 /// Rows of one array over all ranks.
 struct TextRows {
   std::int64_t rows = 0; ///< of this rank
-  /// Appends the lines of a row of this rank (there may be none). Called concurrently; the same bytes at each call.
+  /// Appends the lines of a row of this rank, if it has any. Called concurrently, and must give the same bytes at each
+  /// call.
   std::function<void(std::int64_t row, std::string& text)> append;
 };
 
@@ -25,10 +26,10 @@ struct TextRows {
 void append_number(std::string& text, double number);
 void append_number(std::string& text, std::int64_t number);
 
-/// @brief Writes all rows of the first array, then those of the second, ..., under a temporary name; then gives the
-/// file its name. Each rank makes its lines twice on several ranks: first to count bytes. Memory: about 30 MB on rank
-/// 0, and a share of that on other ranks.
-/// @param files as MeshFileOptions::run_files
+/// @brief Writes all rows of the first array, then those of the second, and so on, under a temporary name; then renames
+/// the file. With several ranks, each makes its lines twice, first to count bytes. Needs about 30 MB on rank 0, and a
+/// share of that on other ranks.
+/// @param files see MeshFileOptions::run_files
 /// @throws FileError on all ranks together
 /// @note Collective.
 void write_text_rows(const std::string& final_path, std::span<const TextRows> arrays, RunFiles* files,

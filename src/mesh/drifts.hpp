@@ -16,8 +16,8 @@ namespace trime::mesh {
 /// A bound on how far any site of any rank has moved since the sites were sorted.
 struct DriftBound {
   double distance = 0; ///< domain units
-  double in_sides =
-      0; ///< divided by the shortest side of the tile into which the site was sorted and of its neighbours; below 1
+  /// Distance over the shortest side of the tile into which the site was sorted and of its neighbours; below 1.
+  double in_sides = 0;
 };
 
 /// For each known tile, by its number in KnownBins, a bound on how far a site that was sorted into it has moved since.

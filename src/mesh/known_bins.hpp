@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stores which sites lie in which bin. A rank knows all bins of its own tiles, and some bins of other ranks' tiles.
+// Stores which sites lie in which bin. A rank knows all bins of the tiles that it owns, and some bins of other ranks'
+// tiles.
 #pragma once
 
 #include "mesh/site.hpp"

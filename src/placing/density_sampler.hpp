@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The wanted density of sites, h^-2 up to a factor, as integer weights of small cells along the Hilbert curve.
+// Samples the wanted density of sites, h^-2 up to a factor, as integer weights of small cells along the Hilbert curve.
 #pragma once
 
 #include "comm/agree.hpp"
@@ -21,15 +21,15 @@
 
 namespace trime::placing {
 
-/// @brief Divides a tile into cells in Hilbert order: into quarters while a cell wants more than a quarter of a site,
-/// or a sixteenth where the boundary is near; cells clear of the shape are left out whole. For a mere integral the
-/// cells may be larger, `coarsening` times as wide. Cells are squares of the grid's quadtree, the same in whichever
-/// tiles they lie, as long as no tile is smaller than a cell. Immutable, thread-safe.
+/// @brief Divides a tile into cells in Hilbert order. A cell is divided into quarters while it should hold more than a
+/// quarter of a site, or a sixteenth near the boundary. Cells that do not touch the shape are left out. If only the
+/// integral is needed, cells may be `coarsening` times as wide. Cells are squares of the quadtree of the grid. They do
+/// not depend on the tiles, as long as no tile is smaller than a cell. Immutable, thread-safe.
 class DensitySampler {
 public:
   static constexpr double weight_unit = 0x1p20; ///< integer weight of one site
 
-  /// @param most_in_part of sites: nothing more of a part that has got them is looked into
+  /// @param most_in_part [sites] the sampling of a part ends when it has this many
   DensitySampler(const mesh::TileGrid& grid, const polygon::BoundaryGuard& guard, const sizing::SizeField& size,
                  const geometry::Lattice& lattice, double coarsening = 1, double most_in_part = INFINITY)
       : grid_(grid), guard_(guard), size_(size), lattice_(lattice),
@@ -39,16 +39,16 @@ public:
   /// A leaf with a weight.
   struct Cell {
     geometry::Box box;
-    std::uint64_t key; ///< with the level it names the cell
+    std::uint64_t key; ///< identifies the cell together with its level
     int level;
-    double size;         ///< h in its middle
-    std::int64_t weight; ///< sites that belong into it, in units of 2^-20
+    double size;         ///< h in the middle of the cell
+    std::int64_t weight; ///< number of sites that it should hold, in units of 2^-20
   };
-  /// Tiles are looked into by parts: there may be fewer tiles than threads.
+  /// Tiles are sampled in parts, because there may be fewer tiles than threads.
   static constexpr int parts_per_tile() { return 1 << (2 * part_levels); }
-  /// Calls visit(cell) for all cells of a part of the tile with a weight, in Hilbert order; so are the parts.
-  /// @throws GeometryError on this rank alone: at a place in the shape the size is not positive and finite, or so small
-  /// that the part would get more than 2^27 cells
+  /// Calls visit(cell) for all cells with a weight of a part of the tile, in Hilbert order. Parts have this order, too.
+  /// @throws GeometryError on this rank alone, if the size at a place in the shape is not positive and finite, or is so
+  /// small that the part would get more than 2^27 cells
   template <class Visit>
   void for_each_cell(LocalIndex tile, int part, const Visit& visit) const {
     CurveSquare square = grid_.tile(tile).on_curve();
@@ -60,15 +60,14 @@ public:
 
 private:
   static constexpr int part_levels = 1; // number of levels below a tile
-  /// Every bin of the typical density is looked into, wherever its tile's middle lies: sizes may jump. No cell lies
-  /// half in the container.
+  /// Returns the least level of cells. Every bin of the typical density is sampled, because sizes may jump, and no cell
+  /// lies partly outside the container.
   int least_level() const {
     return std::max({grid_.unit_level(), grid_.typical_level() + grid_.typical_bin_bits() + 1,
                      grid_.typical_level() + part_levels});
   }
 
-  /// The chords near a part, as a range of Work::chords: all that are nearer to it than `reach`; none are known if that
-  /// is negative.
+  /// The chords nearer to a part than `reach`, as a range of Work::chords. If `reach` is negative, they are not known.
   struct NearChords {
     std::size_t first = 0, last = 0;
     double reach = -1;
@@ -76,21 +75,22 @@ private:
   struct Part {
     CurveSquare square;
     geometry::Box box;
-    bool clear; ///< a larger part around it is clear of the boundary and its PlacingRules::density_strip, and inside
-    NearChords near; ///< of the part that it is a quarter of
+    bool clear;      ///< a larger part around it lies inside and does not touch the boundary or its
+                     // /< PlacingRules::density_strip
+    NearChords near; ///< chords near the part that it is a quarter of
   };
   struct Work {
     std::int64_t cells = 0;
-    double sites = 0;               ///< that the leaves in the container want so far
-    std::vector<LocalIndex> chords; ///< a stack: those of a part lie on those of the larger ones around it
+    double sites = 0;               ///< sites of the leaves in the container so far
+    std::vector<LocalIndex> chords; ///< a stack: the chords of a part lie above those of the larger parts around it
   };
 
   static double half_diagonal(const geometry::Box& box) {
     return 0.5 * std::sqrt(box.width() * box.width() + box.height() * box.height());
   }
 
-  /// @brief Distance from the middle p of a part to the nearest chord, or half its diagonal and `free` if that is less.
-  /// Leaves the chords that its quarters need in part.near.
+  /// @brief Returns the distance from the middle p of a part to the nearest chord, at most half of its diagonal plus
+  /// `free`. Leaves the chords that its quarters need in part.near.
   double distance(Part& part, geometry::Vec2 p, double free, Work& work) const {
     const double half = half_diagonal(part.box), reach = half + free;
     const double far = guard_.distance_below(p, reach);
@@ -115,7 +115,7 @@ private:
     return nearest < reach * reach ? std::sqrt(nearest) : reach;
   }
 
-  /// The chords of the tree, if they are few. In a periodic container their images are left to the guard.
+  /// Returns the chords of the tree, if they are few. In a periodic container their images are left to the guard.
   NearChords collect(const geometry::Box& box, double reach, Work& work) const {
     const geometry::Vec2 margin{reach * (1 + 1e-9), reach * (1 + 1e-9)};
     if (grid_.periods().any())
@@ -187,17 +187,17 @@ private:
   const polygon::BoundaryGuard& guard_;
   const sizing::SizeField& size_;
   const geometry::Lattice& lattice_;
-  double most_inside_, most_near_; // sites in a leaf
+  double most_inside_, most_near_; // largest number of sites in a leaf
   double most_in_part_;            // sites
 };
 
-/// Calls body(item) for all items, over threads. If a size field throws, all ranks throw the error. Collective.
+/// Calls body(item) for all items, by all threads. If a size field throws, all ranks throw the error. Collective.
 template <class Body>
 void agreed_loop(const comm::Communicator& comm, std::ptrdiff_t n, const Body& body) {
   comm::run_agreed(comm, [&] { thread_loop(n, 1, [&](std::ptrdiff_t item, int) { body(item); }); });
 }
 
-/// Parts of the tiles of this rank, in Hilbert order.
+/// The parts of the tiles of this rank, in Hilbert order.
 struct DensityParts {
   const mesh::TileRange& tiles;
   const DensitySampler& sampler;

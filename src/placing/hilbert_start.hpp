@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes inner sites along the Hilbert curve. Each rank makes the sites of its tiles; the set does not depend on the
-// ranks.
+// Makes inner sites along the Hilbert curve. Each rank makes the sites of its tiles. The set of sites does not depend
+// on the ranks.
 #pragma once
 
 #include "mesh/binned_points.hpp"
@@ -15,22 +15,24 @@
 
 namespace trime::placing {
 
-/// @brief Quantiles of the integral of h^-2 along the Hilbert curve, outside a strip of 0.43 h along the boundary: site
-/// j sits where the integral passes (j + 1/2) / n of its total. Weights are integers, so the sites are the same on any
-/// ranks; the count error in any interval of the curve is at most one, so long waves start quiet.
+/// @brief Places sites at quantiles of the integral of h^-2 along the Hilbert curve, outside a strip of 0.43 h along
+/// the boundary: site j is where the integral reaches (j + 1/2) / n of its total. Weights are integers, so the sites
+/// are the same on any number of ranks. The number of sites in any interval of the curve is right to within one, so the
+/// density has no errors of long wave length.
 class HilbertStart {
 public:
-  /// @brief Takes the integral. Collective (one scan). @pre the other arguments outlive this object
-  /// @param expected number of sites that will be asked for, about: if they are few, the cells of the integral are kept
-  /// for them
-  /// @param coarsening of the integral's cells, which else take a quarter of a site, and less near the boundary
+  /// @brief Computes the integral. Collective (one scan). @pre all arguments outlive this object
+  /// @param expected about the number of sites that will be asked for; if it is small, the cells of the integral are
+  /// kept
+  /// @param coarsening factor on the width of the cells of the integral, which otherwise hold a quarter of a site, and
+  /// less near the boundary
   HilbertStart(const comm::Communicator& comm, const mesh::TileRange& tiles, const polygon::BoundaryGuard& guard,
                const sizing::SizeField& size, const geometry::Lattice& lattice, double expected, double coarsening = 1);
   ~HilbertStart();
 
   /// Returns the number of sites that the size asks for, over all ranks.
   double wanted() const;
-  /// The sites of this rank. Collective.
+  /// Returns the sites of this rank. Collective.
   /// @param n number of sites over all ranks
   mesh::SiteList sites(std::int64_t n, std::uint64_t seed) const;
 

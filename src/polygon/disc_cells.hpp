@@ -18,8 +18,8 @@ namespace trime::polygon {
 
 /// Rows of `columns` cells, beginning at `corner`. The pointer points into the guard.
 struct GuardCells {
-  const std::int8_t* states =
-      nullptr; ///< a point in a cell with a positive state needs no push; null without sites, when no point needs one
+  /// A point in a cell with a positive state needs no push. Null if there are no sites, when no point needs one.
+  const std::int8_t* states = nullptr;
   geometry::Vec2 corner;
   double inverse_side = 1;
   int columns = 0, rows = 0;

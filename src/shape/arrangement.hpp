@@ -17,32 +17,32 @@ namespace trime::shape {
 /// One part in an arrangement, or one of its images in a periodic container.
 struct PlacedPart {
   const Part* part;
-  int index;            ///< its number in the region; -1: a rectangle that only cuts the others
-  geometry::Vec2 shift; ///< on the lattice
+  int index;            ///< its number in the region; -1 for a rectangle that only cuts the others
+  geometry::Vec2 shift; ///< shift of the image, on the lattice
 };
 
-/// @brief Built once; O(M log M) for M pieces of any number of parts, where few of them cross, also for long slanted
-/// spikes side by side.
+/// @brief It is built once. O(M log M) for M pieces of any number of parts if few of them cross, also for long slanted
+/// spikes next to each other.
 ///
-/// Crossings are snapped to the lattice; nearer than VertexTable::merge_steps to a vertex they become that vertex.
-/// Vertices of contours keep their coordinates bit for bit. Pieces that coincide are kept once. A cutting rectangle
-/// must stand last: it is crossed with what the others have become.
+/// Crossings are snapped to the lattice; a crossing within VertexTable::merge_steps of a vertex becomes that vertex.
+/// Vertices of contours keep their exact coordinates. Coinciding pieces are kept once. A cutting rectangle must be the
+/// last part: it is crossed with the pieces of the others.
 class Arrangement {
 public:
   /// How near a vertex counts as lying on a curve, in lattice steps.
   static constexpr int on_curve_steps = 4;
 
-  /// From vertex to vertex, straight, or counter-clockwise along a circle by at most a quarter of a turn.
+  /// A piece from vertex to vertex. It is straight, or runs counter-clockwise along a circle by at most a quarter turn.
   struct Piece {
     LocalIndex from, to;
-    int circle;            ///< into circles, -1 for straight ones
+    int circle;            ///< index into circles, -1 for straight pieces
     int part;              ///< the interior of this part (its place in the list) lies on the left
     LocalIndex first_twin; ///< further parts with this piece: twins first_twin .. first_twin + twin_count - 1
     LocalIndex twin_count;
   };
   struct Twin {
     int part;
-    bool along; ///< interior on the left, too; else on the right
+    bool along; ///< true if its interior is on the left, too; otherwise it is on the right
   };
 
   Arrangement(const std::vector<PlacedPart>& parts, const geometry::Frame& frame);
@@ -51,9 +51,9 @@ public:
   const std::vector<Twin>& twins() const { return twins_; }
   const std::vector<Circle>& circles() const { return circles_; }
   const VertexTable& vertices() const { return vertices_; }
-  /// The work that it was: pairs of parts that were crossed with each other.
+  /// Number of pairs of parts that were crossed with each other, as a measure of work.
   std::int64_t pairs() const { return pairs_; }
-  /// Pairs of lines of two polygons, or of a line and a circle, that were looked at for that.
+  /// Number of pairs of lines of two polygons, or of a line and a circle, that were examined.
   std::int64_t line_pairs() const { return line_pairs_; }
 
 private:
@@ -70,8 +70,8 @@ private:
   enum class Place { apart, at_end, between };
   /// Ways to find the lines near another one among those of a part.
   struct LineSearch {
-    std::int64_t lines = 0;     ///< and circles, that others were looked at for
-    std::int64_t looked_at = 0; ///< in the bins of the part
+    std::int64_t lines = 0;     ///< lines and circles for which other lines were searched
+    std::int64_t looked_at = 0; ///< lines examined in the bins of the part
     std::optional<geometry::SegmentTree> tree;
   };
   struct Split {
@@ -101,7 +101,7 @@ private:
   geometry::Segment segment(LocalIndex line) const {
     return {vertices_.point(lines_[line].from), vertices_.point(lines_[line].to)};
   }
-  /// The line as the grid of a part that may be shifted sees it.
+  /// Returns the line shifted back to the grid of a part, which may be an image.
   geometry::Segment moved_back(LocalIndex line, std::size_t part) const {
     return {segment(line).a - parts_[part].shift, segment(line).b - parts_[part].shift};
   }
@@ -111,14 +111,14 @@ private:
   const geometry::Frame& frame_;
   double tolerance_;
   VertexTable vertices_;
-  std::vector<Line> lines_;            // as the splits, only until there are pieces
-  std::vector<LocalIndex> first_line_; // of each polygon in parts_, else unused
+  std::vector<Line> lines_;            // like the splits, used only until the pieces are made
+  std::vector<LocalIndex> first_line_; // first line of each polygon in parts_, unused for circles
   std::vector<Circle> circles_;
   std::vector<std::vector<int>> circle_parts_;
   std::vector<Split> splits_;
   std::vector<Piece> pieces_;
   std::vector<Twin> twins_;
-  std::vector<LineSearch> searches_; // of each part; only while they are crossed
+  std::vector<LineSearch> searches_; // one for each part; used only while parts are crossed
   std::int64_t pairs_ = 0, line_pairs_ = 0;
 };
 

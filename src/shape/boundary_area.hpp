@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The area of a region by its loops, and regions that have none.
+// Computes the area of a region from its loops, and refuses regions without area.
 #pragma once
 
 #include "trime/geometry/boundary.hpp"
@@ -10,19 +10,21 @@
 
 namespace trime::shape {
 
-/// Twice the signed area between a chain of pieces and a point. Loops that are closed may have any origin.
+/// Returns twice the signed area between a chain of pieces and a point. For closed loops the point does not matter.
 double twice_area_under(const std::vector<geometry::Piece>& pieces, geometry::Vec2 origin);
 
-/// @brief Does a loop enclose nothing but a few steps of the lattice? Where sides of parts were meant to be equal there
-/// are such slivers: they are no features.
+/// @brief Returns whether a loop is only a few lattice steps wide. Such slivers appear where sides of parts were meant
+/// to be equal; they are not features.
 bool is_sliver(const geometry::Loop& loop, double twice_area, const geometry::Frame& frame);
 
-/// @brief Computes the area for unrolled loops on a torus: the areas under them add up to that of the region, except
-/// for multiples of the area of the torus. Finds whether the region reaches around it both ways. @pre there are loops
+/// @brief Computes the area of a region with unrolled loops on a torus. The areas under the loops add up to that of the
+/// region, except for multiples of the area of the torus. Also finds whether the region reaches around the torus both
+/// ways. @pre there are loops
 void settle_area_on_torus(geometry::Boundary& boundary, double torus);
 
-/// @brief Loops that wind may be slivers only together: two that lie on each other enclose nothing but rounding errors.
-/// @throws GeometryError for a region without more area than that, by its text and a place
+/// @brief Checks that a region has an area. Loops that wind around a container can be slivers together: two that lie on
+/// each other enclose only rounding errors.
+/// @throws GeometryError for a region without a larger area, with its text and a place
 void check_area(const geometry::Boundary& boundary, const std::string& region, const geometry::Frame& frame);
 
 } // namespace trime::shape

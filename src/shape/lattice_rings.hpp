@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The rings of a contour on the lattice, before they are a polygon: what was given twice, and where rings touch.
+// The rings of a contour on the lattice, before they become a polygon. Finds rings that were given twice, and separates
+// rings that touch.
 #pragma once
 
 #include "trime/core/types.hpp"
@@ -15,29 +16,30 @@ namespace trime::shape {
 struct LatticeRing {
   std::vector<geometry::Vec2> points;
   std::vector<int> lines;
-  std::vector<int> markers{}; ///< as those of a ContourRing; lost where rings are parted
+  std::vector<int> markers{}; ///< as those of a ContourRing; empty after rings were separated
 };
 
 enum class Meeting { none, touch, crossing };
 
-/// @brief How two segments without a common end meet; exact for lattice points.
+/// @brief Returns how two segments without a common end meet. Exact for lattice points.
 Meeting meeting_of(const geometry::Segment& s, const geometry::Segment& t);
 
 using SegmentPair = std::array<LocalIndex, 2>;
 
 /// @brief Returns the pairs (i, j), i < j, of segments that meet, except neighbours of one ring; ascending.
 ///
-/// The segments are those of the rings in turn, each from its vertex to the next. Uses all threads, O(M log M); of a
-/// part of the segments with very many meetings only the first are found, the same on any threads.
+/// The segments are those of the rings, one ring after the other, each from its vertex to the next. O(M log M), by all
+/// threads. If many segments of a chunk meet others, only the first meetings are found, the same for any number of
+/// threads.
 std::vector<SegmentPair> find_meetings(const std::vector<LatticeRing>& rings, const geometry::SegmentGrid& grid);
 
-/// All segments, ring by ring.
+/// Returns all segments, ring by ring.
 std::vector<geometry::Segment> segments_of(const std::vector<LatticeRing>& rings);
 
-/// A ring that was given before, with its first line and that of the other.
+/// A ring that was given before, with its first line and the first line of the other ring.
 struct RepeatedRing {
   int line, first_line;
-  bool loses_markers; ///< it has others than the one before
+  bool loses_markers; ///< its markers differ from those of the other ring
 };
 
 /// @brief Keeps the first of rings that have the same edges, whatever their starts and directions.
@@ -49,13 +51,13 @@ struct RingTouch {
   int line, other_line;
 };
 
-/// @brief Parts rings where a vertex lies on another vertex or on an edge, and rings do not cross there.
+/// @brief Separates rings where a vertex lies on another vertex or on an edge, and rings do not cross.
 ///
-/// The area stays the same: each sector of it around the place gets a separate vertex. One of these vertices stays, and
-/// the others move into their sectors by ShapeRules::touch_gap. So the area never reaches through the place. A hole
-/// that touches its outer ring becomes a bay, and a ring that pinches the area becomes two rings. Where edges overlap,
-/// or rings cross, nothing is done: find_meetings finds them again.
-/// @param meetings all of them @param grid of segments_of(rings)
+/// The area stays the same. Each of its sectors around the place gets a separate vertex. One of these vertices stays,
+/// and the others move into their sectors by ShapeRules::touch_gap. So the area is never connected through the place. A
+/// hole that touches its outer ring becomes a bay, and a ring that pinches the area becomes two rings. Where edges
+/// overlap or rings cross, nothing is changed, and find_meetings finds them again.
+/// @param meetings all meetings @param grid the grid of segments_of(rings)
 std::vector<RingTouch> part_touches(std::vector<LatticeRing>& rings, const std::vector<SegmentPair>& meetings,
                                     const geometry::SegmentGrid& grid, const geometry::Frame& frame);
 

@@ -80,7 +80,9 @@ public:
     if (frame_.periods().any())
       finish_periodic_area();
     if (boundary_.loops.empty() && !boundary_.covers_torus)
-      throw GeometryError(fmt::format("the geometry '{}' is empty: it contains nothing of the plane", region_.text()));
+      throw GeometryError(
+          fmt::format("the geometry '{}' is empty: no point lies in it; check the parts and the order of the operands",
+                      region_.text()));
     check_area(boundary_, region_.text(), frame_);
     std::vector<std::int32_t> markers = name_markers(boundary_, given_, frame_);
     return {frame_, std::move(boundary_), std::move(markers)};

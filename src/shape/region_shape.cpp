@@ -26,7 +26,7 @@ bool is_name_character(char c) {
 std::string unknown_part_message(const std::string& name, std::span<const std::string> part_names) {
   std::vector<std::string> known(part_names.begin(), part_names.end());
   known.emplace_back(domain_name);
-  return fmt::format("unknown part '{}' in the geometry; known parts: {}{}", name, fmt::join(known, ", "),
+  return fmt::format("unknown part {} in the geometry; known parts: {}{}", quoted(name), fmt::join(known, ", "),
                      suggestion(name, known));
 }
 
@@ -44,13 +44,14 @@ public:
     expression(0);
     skip_blanks();
     if (position_ < text_.size())
-      fail("expected the end");
+      fail("expected the end", "; write 'union(a, b)' to join two parts");
   }
 
 private:
-  [[noreturn]] void fail(const std::string& what) const {
+  [[noreturn]] void fail(const std::string& what, const std::string& hint = "") const {
     const std::string found = position_ < text_.size() ? fmt::format("'{}'", text_.substr(position_, 20)) : "the end";
-    throw ConfigError(fmt::format("geometry, column {}: {}, found {} in '{}'", position_ + 1, what, found, text_));
+    throw ConfigError(
+        fmt::format("geometry, column {}: {}, found {} in '{}'{}", position_ + 1, what, found, text_, hint));
   }
 
   void skip_blanks() {
@@ -101,7 +102,7 @@ private:
     if (!take(')'))
       fail("expected ',' or ')'");
     if (operands.size() < 2)
-      fail(fmt::format("expected two or more arguments of {}(...) before this", word));
+      fail(fmt::format("expected {}(...) of two or more parts", word));
     region_.nodes_[node].operation = word == "union"          ? Operation::unite
                                      : word == "intersection" ? Operation::intersect
                                                               : Operation::subtract;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds whether a point is in the region, if it lies in few of very many parts, and which points of a sequence lie
-// inside a part, quickly also between very many long slanted spikes.
+// Decides quickly whether a point lies in a region, if it lies in few of very many parts.
 #pragma once
 
 #include "geometry/segment_tree.hpp"
@@ -13,17 +12,17 @@
 
 namespace trime::shape {
 
-/// @brief Gives the answers of Part::inside, bit for bit, for points that are mostly near the one before.
+/// @brief Gives exactly the results of Part::inside, for points that mostly are near the point before.
 ///
-/// Where a bin has very many segments, only those between a point and the one before are looked at, if they are fewer:
-/// the side changes with each of them. Never more than twice the work of Part::inside. Keeps a reference.
+/// If a bin has very many segments, it examines only those between a point and the point before, because each of them
+/// changes the side. It never does more than twice the work of Part::inside. Keeps a reference.
 class InsideWalk {
 public:
   explicit InsideWalk(const Part& part) : part_(&part) {}
 
-  /// Returns Part::inside. @param p a point of the lattice, as are the vertices of the part
+  /// Returns Part::inside. @param p lies on the lattice, as the vertices of the part do
   bool inside(geometry::Vec2 p);
-  /// Segments of crowded bins that were looked at.
+  /// Number of segments of crowded bins that were examined.
   std::int64_t looked_at() const { return looked_at_; }
 
 private:
@@ -31,20 +30,22 @@ private:
 
   const Part* part_;
   std::int64_t looked_at_ = 0;
-  geometry::Vec2 last_; ///< in a crowded bin
+  geometry::Vec2 last_; ///< the last point in a crowded bin
   std::optional<bool> last_inside_;
-  std::optional<geometry::SegmentTree> tree_; ///< once so much was looked at that it pays
+  std::optional<geometry::SegmentTree> tree_; ///< made once it saves time, after many segments were examined
 };
 
-/// @brief The value of a region while parts come and go. It begins with no part.
+/// @brief Whether a point lies in a region, while the parts that contain the point change. At first no part contains
+/// it.
 ///
-/// Each operation knows how many of its operands decide it, so that a change costs O(occurrences of the part x depth),
-/// however many parts there are.
+/// Each operation counts the operands that decide it, so a change costs O(occurrences of the part x depth), however
+/// many parts there are.
 class RegionState {
 public:
   /// O(parts). @param parts number of parts, the domain included @pre `region` outlives it
   RegionState(const Region& region, std::size_t parts);
-  /// One more place of the part (it may have several, in a periodic container) holds the point, or one less.
+  /// Notes that one more image of the part contains the point, or one fewer; in a periodic container there may be
+  /// several.
   void enter(int part) {
     if (places_[static_cast<std::size_t>(part)]++ == 0)
       change(part, true);
@@ -53,9 +54,9 @@ public:
     if (--places_[static_cast<std::size_t>(part)] == 0)
       change(part, false);
   }
-  /// Region::contains for a point in those parts that were entered and not left.
+  /// Returns Region::contains for a point in the parts that were entered and not left.
   bool contains() const { return values_[0] != 0; }
-  /// Operations and parts whose value was looked at so far.
+  /// Number of operations and parts whose value was examined so far.
   std::int64_t looked_at() const { return looked_at_; }
 
 private:
@@ -63,12 +64,12 @@ private:
   bool is_deciding(int node) const;
 
   const Region& region_;
-  std::vector<int> parent_;              // of each node; the root has none: -1
-  std::vector<char> negates_;            // is the operand subtracted?
-  std::vector<int> deciding_;            // operands with the value that decides their operation
-  std::vector<char> values_;             // of each node
-  std::vector<std::vector<int>> leaves_; // of each part
-  std::vector<int> places_;              // of each part that hold the point
+  std::vector<int> parent_;              // parent of each node; -1 for the root
+  std::vector<char> negates_;            // whether the operand is subtracted
+  std::vector<int> deciding_;            // number of operands with the value that decides the operation
+  std::vector<char> values_;             // value of each node
+  std::vector<std::vector<int>> leaves_; // leaves of each part
+  std::vector<int> places_;              // number of images of each part that contain the point
   std::int64_t looked_at_ = 0;
 };
 

@@ -20,7 +20,7 @@
 
 namespace trime::sites {
 
-/// The tiles of a checkpoint, in the order of the curve. The same on all ranks.
+/// The tiles of a checkpoint, in the order of the curve; the same on all ranks.
 struct SavedTiles {
   std::vector<mesh::Tile> tiles;
   std::vector<std::int64_t> counts;    ///< number of sites that were sorted into each tile

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Samples of a boundary with their local feature sizes, the cones whose lower envelope is the automatic size field.
-// They come from points of the medial axis, found by shrinking balls (Ma, Bae, Choi 2012), one for each ray from the
-// boundary.
+// Samples the boundary and its local feature sizes. The lower envelope of the resulting cones is the automatic size
+// field.
 #pragma once
 
 #include "cones/cone_tree.hpp"
@@ -20,27 +19,27 @@ struct NormalRay {
   int side; ///< 0 to the left of the boundary, 1 to the right
 };
 
-/// Least angle, in degrees, at which a medial point sees its two nearest boundary points; below it is noise. A corner
-/// that turns by at least this much has an axis that ends in it.
+/// [degrees] Least angle between the directions from a medial point to its two nearest boundary points. Points with
+/// smaller angles are noise. The medial axis ends in a corner that turns by at least this much.
 inline constexpr double separation_degrees = 60;
 
-/// Rays from the middle of a smooth curve with this unit tangent, to both sides.
+/// Appends the rays to both sides from a point of a smooth curve with this unit tangent.
 void append_rays(geometry::Vec2 p, geometry::Vec2 tangent, std::vector<NormalRay>& rays);
-/// Rays from a vertex with these tangents before and after it: a fan on the side that it points to.
+/// Appends the rays from a vertex with these tangents before and after it: a fan on the side to which it points.
 void append_rays(geometry::Vec2 p, geometry::Vec2 before, geometry::Vec2 after, std::vector<NormalRay>& rays);
-/// Does an axis end in a vertex with these tangents?
+/// Returns whether the medial axis ends in a vertex with these tangents.
 bool axis_ends_at(geometry::Vec2 before, geometry::Vec2 after);
 
-/// @brief Centre of the largest empty ball that touches the boundary at the ray's origin, on the ray's side; nothing if
-/// it is larger than the container's diagonal, lies outside of the container, or is noise.
-/// About 4 queries of the nearest boundary point.
-/// @param radius in: the first radius to try; out: that of the ball
+/// @brief Returns the centre of the largest empty ball that touches the boundary at the origin of the ray, on its side.
+/// Returns nothing if the ball is larger than the diagonal of the container, lies outside the container, or is noise.
+/// Takes about 4 queries of the nearest boundary point.
+/// @param radius first radius to try; becomes the radius of the ball
 std::optional<geometry::Vec2> medial_point(const NormalRay& ray, const PieceLocator& boundary, const Images& images,
                                            double& radius);
 
-/// @brief Cones (b, lfs(b)) with lfs at least `feature_floor`, so dense that the envelope is right to a few per cent;
-/// those that others cover completely, at slope `gradation`, are left out; periodic images within reach included.
-/// O(n log n) for n samples, shared by ranks and threads. Collective.
+/// @brief Returns cones (b, lfs(b)) with lfs at least `feature_floor`, so dense that the envelope has an error of a few
+/// per cent. Leaves out cones that others cover completely at slope `gradation`, and includes periodic images within
+/// reach. O(n log n) for n samples, shared among ranks and threads. Collective.
 /// @pre feature_floor > 0, gradation > 0, the boundary has a piece
 std::vector<cones::Cone> boundary_features(const comm::Communicator& comm, const geometry::Boundary& boundary,
                                            const Images& images, double feature_floor, double gradation);

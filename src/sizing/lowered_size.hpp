@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A size field that is lowered around some places, as far as a gradation allows. Also how far simplified curves lie
-// from those of a shape, in sizes: the one rule by which curves are made and judged.
+// A size field that is lowered around given places; a gradation limits how fast it grows from there.
 #pragma once
 
 #include "trime/geometry/boundary.hpp"
@@ -22,8 +21,8 @@ struct CurveDistance {
   double in_sizes() const { return distance / size; }
 };
 
-/// @brief That of a piece: at its start, which is where the one before ends, and in its middle. The size is not
-/// checked. O(log of the pieces of the shape), thread-safe.
+/// @brief Returns the distances of a piece at its start and in its middle. Does not check the size. O(log of the pieces
+/// of the shape), thread-safe.
 inline std::array<CurveDistance, 2> curve_distances(const geometry::Piece& piece, const geometry::PieceTree& shape,
                                                     const SizeField& asked, const geometry::Periods& periods) {
   const auto at_place = [&](geometry::Vec2 p) {
@@ -47,7 +46,8 @@ struct SizeLimit {
   double size;
 };
 
-/// @brief min(field(x), min over limits k of size_k + gradation |x - place_k|), nearest images in a periodic container.
+/// @brief The size min(field(x), min over limits k of size_k + gradation |x - place_k|), with the nearest images in a
+/// periodic container.
 class LoweredSize final : public SizeField {
 public:
   /// O(n log n) for n limits. @pre `field` outlives this object
@@ -55,9 +55,9 @@ public:
               const geometry::Periods& periods);
   LoweredSize(const SizeField&&, const std::vector<SizeLimit>&, double, const geometry::Periods&) = delete;
   ~LoweredSize() override;
-  /// About 60 ns among a thousand limits. What is no valid size comes through as it is.
+  /// Takes about 60 ns among a thousand limits. Invalid sizes of the field are returned unchanged.
   double size(geometry::Vec2 p) const override;
-  /// Does the same where the field is known to have a valid value.
+  /// As size(p), where the field is known to have the valid value `field_size`.
   double lowered(geometry::Vec2 p, double field_size) const;
   bool is_uniform() const override { return false; }
   std::size_t memory_bytes() const override;

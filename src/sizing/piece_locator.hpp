@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds the nearest point of a boundary and of its periodic images, and the images of a thing that count in a
-// container: those within half a period of it.
+// Finds the nearest point of a boundary and of its periodic images.
 #pragma once
 
 #include "cones/cone_tree.hpp"
@@ -16,12 +15,12 @@ namespace trime::sizing {
 
 class Images {
 public:
-  /// @param period_x, period_y 0 if not periodic
+  /// @param period_x, period_y periods; 0 if not periodic
   Images(const geometry::Box& container, double period_x, double period_y)
       : container_(container), period_x_(period_x), period_y_(period_y) {}
 
-  /// Shifts that may bring a thing into reach, the null shift among them: things lie in the container or within two
-  /// periods of it.
+  /// Returns the shifts that may bring an object into reach, including the null shift. Objects lie in the container or
+  /// within two periods of it.
   std::vector<geometry::Vec2> shifts() const {
     std::vector<geometry::Vec2> list;
     const int nx = period_x_ > 0 ? 3 : 0, ny = period_y_ > 0 ? 3 : 0;
@@ -31,18 +30,19 @@ public:
     return list;
   }
 
-  /// May anything in the box be the nearest to a point of the container? Always true where it is not periodic.
+  /// Returns whether an object in the box may be the nearest to a point of the container. Always true if it is not
+  /// periodic.
   bool in_reach(const geometry::Box& box) const {
     return overlaps(box.min.x, box.max.x, container_.min.x, container_.max.x, period_x_) &&
            overlaps(box.min.y, box.max.y, container_.min.y, container_.max.y, period_y_);
   }
 
-  /// The image of p in the container, as far as it is periodic.
+  /// Returns the image of p in the container, along periodic axes.
   geometry::Vec2 wrap(geometry::Vec2 p) const {
     return {wrap(p.x, container_.min.x, period_x_), wrap(p.y, container_.min.y, period_y_)};
   }
 
-  /// Is p in the container, or in one of its images?
+  /// Returns whether p lies in the container or in one of its images.
   bool in_container(geometry::Vec2 p) const {
     return (period_x_ > 0 || (p.x >= container_.min.x && p.x <= container_.max.x)) &&
            (period_y_ > 0 || (p.y >= container_.min.y && p.y <= container_.max.y));
@@ -62,19 +62,19 @@ private:
   double period_x_, period_y_;
 };
 
-/// Boxes around runs of consecutive pieces, and around those. Immutable; queries are thread-safe.
+/// A hierarchy of boxes around runs of consecutive pieces. Immutable; queries are thread-safe.
 class PieceLocator {
 public:
-  /// O(M) time for M pieces.
+  /// Takes O(M) time for M pieces.
   PieceLocator(const geometry::Boundary& boundary, const Images& images);
-  /// Share by which the returned point may be farther than the nearest. From the centre of a circle of many segments
-  /// all are nearly equally near, and examining each one would take too long.
+  /// [1] Share by which the returned point may be farther away than the nearest. All segments of a circle are almost
+  /// equally near to its centre, and examining each one would take too long.
   static constexpr double slack = 5e-4;
-  /// A boundary point, and the segment it lies on; the same point three times if that is an arc.
+  /// A boundary point, and the segment on which it lies; on an arc, all three are the boundary point.
   struct Nearest {
     geometry::Vec2 point, segment_start, segment_end;
   };
-  /// Nearest boundary point to p that is nearer than `reach`, if there is any. O(log M) for curves.
+  /// Returns the boundary point nearest to p, if one is nearer than `reach`. O(log M) for curves.
   std::optional<Nearest> nearest(geometry::Vec2 p, double reach) const;
 
 private:

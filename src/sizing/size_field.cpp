@@ -23,9 +23,10 @@ ExpressionSize::ExpressionSize(const Formula& formula, const geometry::Box& box)
       const double value = formula.evaluate(x, y);
       if (!std::isfinite(value) || value <= 0)
         throw ConfigError(
-            fmt::format("{}: expected a positive size everywhere in the shape's bounding box, found {} at "
-                        "({}, {}) for '{}'; wrap it in max(..., smallest size) if that place is outside",
-                        formula.where(), value, x, y, formula.text()));
+            fmt::format("{}: expected a positive size everywhere in the bounding box of the shape, found {:.6g} at "
+                        "({:.6g}, {:.6g}) for '{}'; if the size is wrong outside the shape only, write "
+                        "max(FORMULA, SMALLEST SIZE)",
+                        formula.where(), std::isnan(value) ? std::fabs(value) : value, x, y, formula.text()));
       largest = std::fmax(largest, value);
     }
   smallest_ = smallest_share * largest;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sweeps of a stage: stars certified and sites moved in one pass, in place; and the schedule that decides when
-// sites are sorted and when h is evaluated again.
+// Runs the sweeps of a stage: each certifies the stars and moves the sites. The schedule decides when sites are sorted
+// and when h is evaluated again.
 #pragma once
 
 #include "core/state_fields.hpp"
@@ -62,7 +62,7 @@ private:
   int age_of_sizes_ = 0, moves_since_sort_ = 0; // in sweeps
 };
 
-/// Which tiles and sites may sleep.
+/// The choice of tiles and sites that may sleep.
 enum class Sleep { never, where_nothing_moves };
 
 /// @brief Moves the inner sites, sweep by sweep. `prepare` certifies every star at the present places and computes the

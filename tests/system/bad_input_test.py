@@ -199,8 +199,8 @@ class Rows:
 
     def more_points_than_these_ranks_can_own(self):
         text = GOOD.replace("points = 500", "points = 1e10")
-        yield Row(text, USAGE, [r"1e\+10 points are too many for 1 rank: .* start 6 or more"], ranks_tried=(1,))
-        yield Row(text, USAGE, [r"1e\+10 points are too many for 3 ranks: .* start 6 or more"], ranks_tried=(3,))
+        yield Row(text, USAGE, [r"1e\+10 points are too many for 1 rank: .* start at least 6 ranks"], ranks_tried=(1,))
+        yield Row(text, USAGE, [r"1e\+10 points are too many for 3 ranks: .* start at least 6 ranks"], ranks_tried=(3,))
 
     def container_without_inside(self):
         yield Row(GOOD.replace("x_min = 0\n", "x_min = 2\n"), USAGE, [r"case\.ini.*x_m(in|ax)"])
@@ -217,7 +217,7 @@ class Rows:
                       [r"case\.ini:3: \[domain\] has the sides .* set x_min, x_max, y_min and y_max around the shape"])
 
     def sizes_that_no_number_of_points_reaches(self):
-        yield Row(GOOD, USAGE, [r"max_size = 1e-300: expected more than numbers can hold"],
+        yield Row(GOOD, USAGE, [r"max_size = 1e-300: expected more points than numbers can express"],
                   extra=["sizing.max_size=1e-300"], modes=([],))
 
     def unknown_part_in_region(self):

@@ -105,7 +105,7 @@ class DirtyInputs(unittest.TestCase):
 
     def test_what_is_left_out_is_told(self):
         for text, message in (("region attributes", r":\d+: regional attributes are ignored"),
-                              ("region attributes", r":11: 1 vertex lies, here first, on no segment"),
+                              ("region attributes", r":11: this vertex lies on no segment"),
                               ("no section of holes", r":7: 1 ring has no hole point inside")):
             row = next(row for row in READ if text in row[0] and row[1] == "a.poly")
             self.assertRegex("\n".join(self.validated(row[1], row[2])[2]), message)

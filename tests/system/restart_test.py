@@ -44,7 +44,7 @@ def checkpoints(directory):
     return sorted(directory.glob("mesh.checkpoint-*.h5"))
 
 
-class Restart(unittest.TestCase):
+class Runs(unittest.TestCase):
     def whole(self, directory, *arguments):
         """The mesh of a run without a break."""
         done = run(*arguments, *places(directory))
@@ -53,6 +53,8 @@ class Restart(unittest.TestCase):
         (directory / "mesh.h5").unlink()
         return found
 
+
+class EverySweep(Runs):
     def chain(self, ranks, *arguments, threads=1):
         """Stops a run after each sweep, and goes on with other ranks."""
         with Workspace() as directory:
@@ -91,6 +93,8 @@ class Restart(unittest.TestCase):
     def test_every_sweep_of_a_torus(self):
         self.chain([1, 2], ROOT / "configs" / "torus_hole.ini", "meshing.points=1500", threads=2)
 
+
+class Restart(Runs):
     def test_steps_from_before_the_break_stay(self):
         arguments = [CIRCLE, "meshing.points=1500", "output.interval=3", "output.formats=vtkhdf xdmf text"]
 

@@ -8,6 +8,7 @@
 #include "trime/io/metadata.hpp"
 #include "trime/mesh/distributed_mesh.hpp"
 
+#include <array>
 #include <atomic>
 #include <climits>
 #include <string>
@@ -38,7 +39,8 @@ private:
   static_assert(std::atomic<bool>::is_always_lock_free);
 };
 
-class RunFiles;
+/// Endings of the mesh file and of its views: of the triangles for two kinds of readers, and of the boundary edges.
+inline constexpr std::array<const char*, 4> mesh_file_endings{".h5", ".xdmf", ".vtkhdf", ".xmf"};
 
 /// Names, place and kinds of the files to write.
 struct MeshFileOptions {
@@ -60,14 +62,6 @@ struct MeshFileOptions {
 /// Returns the group for the fields of points ("PointData") or triangles ("CellData"): inside /VTKHDF, or next to the
 /// plain mesh if that view is not written.
 std::string field_group(const MeshFileOptions& options, const char* name);
-
-/// @brief Creates the directory if it is missing, and checks that the files can be written. Call it before long work
-/// whose result would be lost.
-/// @return warnings, for example about files that a killed run has left; on rank 0 only
-/// @throws FileError on all ranks if the directory cannot be made or written, or a file exists and may not be
-/// overwritten
-/// @note Collective.
-std::vector<std::string> check_output(const MeshFileOptions& options, const comm::Communicator& comm);
 
 /// The files that were written.
 struct WrittenFiles {

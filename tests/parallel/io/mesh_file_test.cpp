@@ -8,6 +8,7 @@
 #include "support/mesh_slabs.hpp"
 #include "support/temporary_directory.hpp"
 #include "trime/core/error.hpp"
+#include "trime/formats/exchange.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,6 +18,8 @@
 
 namespace trime::io {
 namespace {
+
+using formats::check_output;
 
 namespace fs = std::filesystem;
 

@@ -113,8 +113,7 @@ TEST(Config, UnderstandsAGoodFile) {
   EXPECT_EQ(options.setup_threads, 0);
   EXPECT_EQ(options.output.file.name, "c");
   EXPECT_EQ(options.output.file.directory, "out");
-  EXPECT_FALSE(options.output.file.vtkhdf);
-  EXPECT_FALSE(options.output.text);
+  EXPECT_EQ(options.output.formats, std::vector{formats::Format::xdmf});
   EXPECT_EQ(options.log_level, LogLevel::debug);
   ASSERT_EQ(options.warnings.size(), 1u); // map does not occur in the geometry
   EXPECT_NE(options.warnings[0].find("'map'"), std::string::npos);
@@ -300,15 +299,19 @@ TEST(Config, TheContainerIsAutomaticWhereNoSideIsGiven) {
 
 TEST(Config, TakesFormatsOfOtherProgramsButNotForPeriodicContainers) {
   using formats::Format;
-  EXPECT_TRUE(parse_config(good, "c.ini", {}).exports.empty());
-  EXPECT_EQ(parse_config(good, "c.ini", {"output.formats=vtkhdf gmsh fort14"}).exports,
-            (std::vector{Format::gmsh, Format::adcirc}));
-  EXPECT_TRUE(parse_config(good, "c.ini", {"output.formats=gmsh", "output.interval=0"}).exports.empty());
+  EXPECT_TRUE(parse_config(good, "c.ini", {}).output.export_paths().empty());
+  EXPECT_EQ(parse_config(good, "c.ini", {"output.formats=vtkhdf gmsh fort14"}).output.formats,
+            (std::vector{Format::vtkhdf, Format::gmsh, Format::adcirc}));
+  EXPECT_EQ(parse_config(good, "c.ini", {"output.formats=xdmf gmsh triangle"}).output.export_paths(),
+            (std::vector<std::string>{"out/c.msh", "out/c.node", "out/c.ele", "out/c.edge"}));
   EXPECT_NE(errors_of(good, {"output.formats=xdmf vtu", "domain.periodic_y=true"})
                 .find("'formats = xdmf vtu' in [output]: a periodic container"),
             std::string::npos);
-  for (const formats::FormatName& name : formats::all_formats())
-    EXPECT_EQ(formats::format_of_path(std::string("a/b") + name.ending), formats::format_of_word(name.word));
+  for (const formats::FormatInfo& info : formats::all_formats()) {
+    EXPECT_EQ(formats::format_of_word(info.word), info.format);
+    EXPECT_EQ(formats::format_of_path(std::string("a/b") + info.ending),
+              info.plan ? std::optional(info.format) : std::nullopt);
+  }
 }
 
 TEST(Config, TakesMethodsAndPointSchemes) {
@@ -377,7 +380,7 @@ TEST(Config, OutputSaysWhichMeshesAreWritten) {
   const auto options = [](const std::string& interval) {
     return parse_config(good, "dir/c.ini", {"output.interval=" + interval, "output.formats=text xdmf"});
   };
-  EXPECT_TRUE(options("-1").output.text);
+  EXPECT_TRUE(options("-1").output.wants(formats::Format::text));
   EXPECT_FALSE(options("0").write);
   EXPECT_TRUE(options("-1").write);
   EXPECT_FALSE(options("-1").output.steps);

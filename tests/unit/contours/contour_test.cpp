@@ -72,7 +72,7 @@ TEST(Contour, BadTextIsLocated) {
   expect_error("0 0\n1 0 2\n", {"map.xy:2", "two numbers"});
   expect_error("0 0\n1 0\n0,5 1\n", {"map.xy:3", "two numbers"});
   expect_error("0 0\n1,, 0\n0 1\n", {"map.xy:2", "one comma between"});
-  expect_error("0 0 0\n1 0 0\n0 1 0\n", {"map.xy:1", "found three numbers"});
+  expect_error("0 0 0\n1 0 0\n0 1 0\n", {"map.xy:1", "remove the third column"});
   expect_error("0 0\n1 0\nnan 0.5\n", {"map.xy:3", "finite", "nan"});
   expect_error("0 0\n1 0\n0.5 -inf\n", {"map.xy:3", "finite", "-inf"});
   expect_error("0 0\n1 0\n0.5 1e999\n", {"map.xy:3", "finite"});

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/temporary_file.hpp"
 
-#include "io/output_files.hpp"
+#include "formats/output_files.hpp"
 #include "trime/core/error.hpp"
 #include "trime/io/mesh_file.hpp"
 
@@ -73,8 +73,8 @@ TEST(TemporaryFile, ATemporaryNameIsNotLongerThanItMayBe) {
 
 TEST(OutputFiles, EndingsAreNotLongerThanTheyMayBe) {
   const std::string longest = "m_2147483647_bdry_vertices_coords_CCW_1234567890.txt";
-  EXPECT_TRUE(is_text_mesh_file(longest, "m"));
-  EXPECT_EQ(longest.size(), 1 + longest_ending);
+  EXPECT_TRUE(formats::is_text_mesh_file(longest, "m"));
+  EXPECT_EQ(longest.size(), 1 + formats::longest_ending);
 }
 
 TEST(TemporaryFile, LeavesAPipeWhereItIs) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trime/io/mesh_series.hpp"
+#include "formats/mesh_series.hpp"
 
 #include "comm/agree.hpp"
-#include "io/output_files.hpp"
+#include "formats/output_files.hpp"
 #include "io/temporary_file.hpp"
 #include "io/xdmf.hpp"
 #include "trime/core/error.hpp"
@@ -18,7 +18,7 @@
 #include <span>
 #include <string>
 
-namespace trime::io {
+namespace trime::formats {
 namespace {
 
 /// A file and the time at which it is shown.
@@ -28,8 +28,6 @@ struct NamedTime {
 };
 
 /// Text of NAME.vtkhdf.series. Bytes of a name that are no UTF-8 are replaced, since JSON cannot hold them.
-std::string file_series_text(std::span<const NamedTime> files);
-
 std::string file_series_text(std::span<const NamedTime> files) {
   using Json = nlohmann::ordered_json;
   Json list = Json::array();
@@ -50,25 +48,25 @@ int number_behind(const std::string& start, const std::string& path) {
   return number;
 }
 
-double quality_attribute(const Metadata& metadata, const std::string& name) {
-  if (const MetadataGroup* group = find_group(metadata, "quality"))
-    for (const Attribute& attribute : group->attributes)
+double quality_attribute(const io::Metadata& metadata, const std::string& name) {
+  if (const io::MetadataGroup* group = io::find_group(metadata, "quality"))
+    for (const io::Attribute& attribute : group->attributes)
       if (const double* value = std::get_if<double>(&attribute.value); value && attribute.name == name)
         return *value;
   throw FileError(fmt::format("no quality/{} of a mesh", name));
 }
 
-mesh::RatioSummary ratios_of(const Metadata& metadata, const std::string& name) {
+mesh::RatioSummary ratios_of(const io::Metadata& metadata, const std::string& name) {
   const auto value = [&](const char* of) { return quality_attribute(metadata, name + of); };
   return {value("_median"), value("_mean"), value("_max"), value("_half_mean"), value("_std")};
 }
 
 /// Reads from a mesh file what the collections say about it. It reads only the ratios of the quality.
-TextQuality quality_of(const Metadata& metadata) {
+TextQuality quality_of(const io::Metadata& metadata) {
   TextQuality found;
-  found.retriangulation = static_cast<int>(attribute_of<std::int64_t>(metadata, "retriangulation"));
-  found.points = attribute_of<std::int64_t>(metadata, "points");
-  found.triangles = attribute_of<std::int64_t>(metadata, "triangles");
+  found.retriangulation = static_cast<int>(io::attribute_of<std::int64_t>(metadata, "retriangulation"));
+  found.points = io::attribute_of<std::int64_t>(metadata, "points");
+  found.triangles = io::attribute_of<std::int64_t>(metadata, "triangles");
   found.quality.alpha = ratios_of(metadata, "alpha");
   found.quality.beta = ratios_of(metadata, "beta");
   return found;
@@ -76,8 +74,23 @@ TextQuality quality_of(const Metadata& metadata) {
 
 } // namespace
 
-std::vector<std::string> check_output(const MeshFileOptions& options, const comm::Communicator& comm) {
-  return MeshSeries({options, false, false, {}}, comm).check(0);
+std::vector<std::string> check_output(const io::MeshFileOptions& options, const comm::Communicator& comm) {
+  return MeshSeries({options, {Format::vtkhdf, Format::xdmf}, false, {}}, comm).check(0);
+}
+
+std::vector<std::string> SeriesOptions::export_paths() const {
+  std::vector<std::string> paths;
+  for (const Format format : formats)
+    if (const FormatInfo& info = info_of(format); info.plan)
+      for (const std::string& path : paths_of(format, file.path(info.ending)))
+        paths.push_back(path);
+  return paths;
+}
+
+MeshSeries::MeshSeries(SeriesOptions options, const comm::Communicator& comm)
+    : options_(std::move(options)), comm_(comm) {
+  options_.file.vtkhdf = options_.wants(Format::vtkhdf);
+  options_.file.xdmf = options_.wants(Format::xdmf);
 }
 
 std::vector<std::string> MeshSeries::check(double expected_points) {
@@ -122,7 +135,7 @@ std::vector<std::string> MeshSeries::go_on_after(int retriangulation) {
     const std::string stem = step_name(name, number);
     try { // what is thrown is the same on all ranks
       members_.push_back(
-          {stem, quality_of(read_metadata(options_.file.directory + "/" + stem + ".h5", {"quality"}, comm_))});
+          {stem, quality_of(io::read_metadata(options_.file.directory + "/" + stem + ".h5", {"quality"}, comm_))});
     } catch (const FileError& error) {
       warnings.push_back(
           fmt::format("{}.h5: a step of the run before the restart cannot be read: {}; the series does not list it",
@@ -136,22 +149,25 @@ void MeshSeries::write_step(const SeriesMesh& mesh) {
   write(mesh, step_name(options_.file.name, mesh.retriangulation), std::to_string(mesh.retriangulation));
 }
 
-WrittenFiles MeshSeries::write_final(const SeriesMesh& mesh) {
+io::WrittenFiles MeshSeries::write_final(const SeriesMesh& mesh) {
   const std::size_t steps = members_.size();
-  WrittenFiles written = write(mesh, options_.file.name, final_label);
-  if (!comm_.is_root())
-    return written;
-  if (steps > 0)
+  io::WrittenFiles written = write(mesh, options_.file.name, final_label);
+  if (comm_.is_root() && steps > 0)
     written.paths.push_back(fmt::format("{} ({} of them)", options_.file.path("_step_*.h5"), steps));
   written.paths.insert(written.paths.end(), collections_.begin(), collections_.end());
+  for (const Format format : options_.formats)
+    if (const FormatInfo& info = info_of(format); info.plan)
+      for (const std::string& path : formats::write(format, options_.file.path(info.ending), mesh.mesh, options_.names,
+                                                    options_.file.run_files, comm_))
+        written.paths.push_back(path);
   return written;
 }
 
-WrittenFiles MeshSeries::write(const SeriesMesh& mesh, const std::string& name, const std::string& label) {
-  MeshFileOptions file = options_.file;
+io::WrittenFiles MeshSeries::write(const SeriesMesh& mesh, const std::string& name, const std::string& label) {
+  io::MeshFileOptions file = options_.file;
   file.name = name;
   file.is_final = label == final_label;
-  const WrittenFiles written = write_mesh(file, mesh.mesh, mesh.metadata, comm_);
+  const io::WrittenFiles written = io::write_mesh(file, mesh.mesh, mesh.metadata, comm_);
   const bool first = !is_cleared_;
   is_cleared_ = true;
   members_.push_back(
@@ -160,9 +176,9 @@ WrittenFiles MeshSeries::write(const SeriesMesh& mesh, const std::string& name, 
     if (comm_.is_root() && first && options_.file.overwrite)
       remove_stale(written.paths);
   });
-  if (options_.text)
-    write_text_mesh({options_.file.path(""), options_.file.name, label, options_.period, file.run_files}, mesh.mesh,
-                    comm_);
+  if (options_.wants(Format::text))
+    write_text_mesh({options_.file.path(""), options_.file.name, label, options_.names.period, file.run_files},
+                    mesh.mesh, comm_);
   comm::run_agreed(comm_, [&] {
     if (comm_.is_root())
       collections_ = write_collections();
@@ -186,32 +202,32 @@ void MeshSeries::remove_stale(const std::vector<std::string>& written) const {
 
 /// Rank 0 writes the collections of all meshes of the run again after each mesh.
 std::vector<std::string> MeshSeries::write_collections() const {
-  const MeshFileOptions& file = options_.file;
+  const io::MeshFileOptions& file = options_.file;
   std::vector<std::string> paths;
-  if (options_.text) {
+  if (options_.wants(Format::text)) {
     std::vector<TextQuality> lines;
     for (const Member& member : members_)
       lines.push_back(member.quality);
-    write_text_file(file.path("") + "/" + file.name + "_tria_quality_stat_overall.txt", overall_quality_text(lines),
-                    file.run_files);
+    io::write_text_file(file.path("") + "/" + file.name + "_tria_quality_stat_overall.txt", overall_quality_text(lines),
+                        file.run_files);
     paths.push_back(file.path("") + "/" + file.name + "_*.txt");
   }
   if (options_.steps && file.xdmf) {
-    std::vector<XdmfContent> grids;
+    std::vector<io::XdmfContent> grids;
     for (const Member& m : members_)
-      grids.push_back({m.name + ".h5", field_group(file, "CellData"), field_group(file, "PointData"), m.quality.points,
-                       m.quality.triangles, 0, m.quality.retriangulation});
-    write_text_file(xdmf_collection(file), xdmf_series_text(grids), file.run_files);
+      grids.push_back({m.name + ".h5", io::field_group(file, "CellData"), io::field_group(file, "PointData"),
+                       m.quality.points, m.quality.triangles, 0, m.quality.retriangulation});
+    io::write_text_file(xdmf_collection(file), io::xdmf_series_text(grids), file.run_files);
     paths.push_back(xdmf_collection(file));
   }
   if (options_.steps && file.vtkhdf) {
     std::vector<NamedTime> views;
     for (const Member& m : members_)
       views.push_back({m.name + ".vtkhdf", m.quality.retriangulation});
-    write_text_file(vtkhdf_collection(file), file_series_text(views), file.run_files);
+    io::write_text_file(vtkhdf_collection(file), file_series_text(views), file.run_files);
     paths.push_back(vtkhdf_collection(file));
   }
   return paths;
 }
 
-} // namespace trime::io
+} // namespace trime::formats

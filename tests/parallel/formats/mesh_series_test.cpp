@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The files of a whole run: text files with the same bytes for any distribution over ranks, steps, collections, and
 // what happens to the files of an older run.
-#include "trime/io/mesh_series.hpp"
+#include "formats/mesh_series.hpp"
 
 #include "io/text_rows.hpp"
 #include "support/mesh_slabs.hpp"
@@ -14,7 +14,7 @@
 #include <map>
 #include <sstream>
 
-namespace trime::io {
+namespace trime::formats {
 namespace {
 
 namespace fs = std::filesystem;
@@ -42,7 +42,7 @@ SeriesOptions options_in(const std::string& directory) {
   options.file.directory = directory;
   options.file.name = "mesh";
   options.steps = true;
-  options.text = true;
+  options.formats = {Format::vtkhdf, Format::xdmf, Format::text};
   return options;
 }
 
@@ -52,11 +52,11 @@ TEST(TextRows, ComeInOrderOverManySlices) {
   constexpr std::int64_t total = 700000; // more than one slice for any number of ranks
   std::int64_t rows = 0;
   const mesh::Slab slab = test::share(comm, total, 3, rows);
-  const TextRows array{rows, [&](std::int64_t row, std::string& text) {
-                         append_number(text, slab.first + row);
-                         text += '\n';
-                       }};
-  write_text_rows(directory.path() + "/rows.txt", {&array, 1}, nullptr, comm);
+  const io::TextRows array{rows, [&](std::int64_t row, std::string& text) {
+                             io::append_number(text, slab.first + row);
+                             text += '\n';
+                           }};
+  io::write_text_rows(directory.path() + "/rows.txt", {&array, 1}, nullptr, comm);
   if (!comm.is_root())
     return;
   std::string expected;
@@ -158,10 +158,10 @@ TEST(MeshSeries, WritesStepsFinalMeshAndCollections) {
   const mesh::DistributedMesh small = test::slabs_of(test::holed_square(3), comm, 1),
                               large = test::slabs_of(test::holed_square(cells), comm, 2);
   const mesh::QualitySummary quality;
-  const Metadata metadata;
+  const io::Metadata metadata;
   series.write_step({1, small, quality, metadata});
   series.write_step({12, large, quality, metadata});
-  const WrittenFiles written = series.write_final({17, large, quality, metadata});
+  const io::WrittenFiles written = series.write_final({17, large, quality, metadata});
   if (!comm.is_root())
     return;
   const std::string stem = directory.path() + "/mesh";
@@ -252,7 +252,7 @@ TEST(MeshSeries, ReplacesAllOfAnOlderRunAndNothingElse) {
   SeriesOptions options = options_in(directory.path());
   options.file.overwrite = true;
   options.steps = false;
-  options.text = false;
+  options.formats = {Format::vtkhdf, Format::xdmf};
   MeshSeries series(options, comm);
   EXPECT_TRUE(series.check(1000).empty());
   for (const std::string& file : stale)
@@ -269,4 +269,4 @@ TEST(MeshSeries, ReplacesAllOfAnOlderRunAndNothingElse) {
 }
 
 } // namespace
-} // namespace trime::io
+} // namespace trime::formats

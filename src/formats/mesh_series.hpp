@@ -1,26 +1,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes all files of one run: a mesh file per output step, the final mesh file, the text files if they are wanted, and
-// the collections that ParaView plays as a time series.
+// Writes all files of one run: a mesh file per output step, the final mesh in all formats that are wanted, and the
+// collections that ParaView plays as a time series.
 #pragma once
 
+#include "formats/text_mesh.hpp"
 #include "trime/comm/communicator.hpp"
+#include "trime/formats/exchange.hpp"
 #include "trime/io/mesh_file.hpp"
 #include "trime/io/metadata.hpp"
-#include "trime/io/text_mesh.hpp"
 #include "trime/mesh/distributed_mesh.hpp"
 #include "trime/mesh/quality.hpp"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
-namespace trime::io {
+namespace trime::formats {
 
-/// Which files to write in addition to those of the final mesh.
+/// Says which files a run writes.
 struct SeriesOptions {
-  MeshFileOptions file;
-  bool steps = false;          ///< the run writes meshes before the final one
-  bool text = false;           ///< also write the text files of TriMe++, in the folder `file.path("")`
-  geometry::Vec2 period{0, 0}; ///< as TextPlace::period
+  io::MeshFileOptions file; ///< MeshSeries chooses its views by the formats
+  /// In vtkhdf, xdmf and text all meshes are written, in others only the final one. The files of text are in the folder
+  /// `file.path("")`, the others next to NAME.h5.
+  std::vector<Format> formats{Format::vtkhdf, Format::xdmf};
+  bool steps = false; ///< the run writes meshes before the final one
+  Names names{};      ///< for all formats except vtkhdf and xdmf
+
+  bool wants(Format format) const { return std::find(formats.begin(), formats.end(), format) != formats.end(); }
+  /// Paths of the files in formats of other programs.
+  std::vector<std::string> export_paths() const;
 };
 
 /// The mesh of one step. The references must be valid during the call.
@@ -28,14 +36,14 @@ struct SeriesMesh {
   int retriangulation = 0; ///< counts from 1; it is the time in the series
   const mesh::DistributedMesh& mesh;
   const mesh::QualitySummary& quality;
-  const Metadata& metadata;
+  const io::Metadata& metadata;
 };
 
 /// Writes the mesh files of a run, one after the other.
 class MeshSeries {
 public:
   /// @pre `comm` outlives this object
-  MeshSeries(SeriesOptions options, const comm::Communicator& comm) : options_(std::move(options)), comm_(comm) {}
+  MeshSeries(SeriesOptions options, const comm::Communicator& comm);
 
   /// @brief Creates the directories and checks that all files can be written, also those of steps, whose numbers are
   /// not known yet. Call it before long work whose result would be lost.
@@ -59,9 +67,9 @@ public:
   /// @note Collective.
   void write_step(const SeriesMesh& mesh);
 
-  /// Writes the last mesh of the run as write_step() does, under the plain name. @return the files of the run, those of
-  /// the final mesh first, on rank 0 only
-  WrittenFiles write_final(const SeriesMesh& mesh);
+  /// Writes the last mesh of the run as write_step() does, under the plain name, and in the formats of other programs.
+  /// @return the files of the run, those of the final mesh first, on rank 0 only
+  io::WrittenFiles write_final(const SeriesMesh& mesh);
 
 private:
   /// A mesh that is in the directory now.
@@ -70,7 +78,7 @@ private:
     TextQuality quality;
   };
 
-  WrittenFiles write(const SeriesMesh& mesh, const std::string& name, const std::string& label);
+  io::WrittenFiles write(const SeriesMesh& mesh, const std::string& name, const std::string& label);
   void remove_stale(const std::vector<std::string>& written) const;
   std::vector<std::string> write_collections() const;
 
@@ -81,4 +89,4 @@ private:
   std::vector<std::string> collections_; ///< files that list all members
 };
 
-} // namespace trime::io
+} // namespace trime::formats

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The look at the output directory before a run, so that no hour of work ends at a file that may not be written.
-#include "io/output_files.hpp"
+#include "formats/output_files.hpp"
 
+#include "comm/agree.hpp"
 #include "core/quoted.hpp"
 #include "core/read_file.hpp"
 #include "io/temporary_file.hpp"
@@ -17,17 +18,16 @@
 #include <filesystem>
 #include <functional>
 
-namespace trime::io {
+namespace trime::formats {
 namespace {
 
-constexpr const char* facet_ending = ".xmf";
-constexpr std::array<const char*, 4> view_endings{".h5", ".xdmf", ".vtkhdf", facet_ending};
+constexpr const auto& view_endings = io::mesh_file_endings;
 constexpr const char *xdmf_collection_ending = "_series.xdmf", *vtkhdf_collection_ending = ".vtkhdf.series";
 constexpr const char* step_infix = "_step_";
 
 /// Files in it have a name, too.
 void check_length(const std::string& directory) {
-  if (const std::string problem = length_problem(directory + "/", longest_file_name); !problem.empty())
+  if (const std::string problem = io::length_problem(directory + "/", io::longest_file_name); !problem.empty())
     throw FileError(
         fmt::format("cannot make the output directory {}: {}; set output.directory", shown(directory), problem));
 }
@@ -43,11 +43,11 @@ void make_directory(const std::string& directory) {
 
 /// Really makes a file: permissions alone do not show read-only and full file systems.
 void check_writable(const std::string& directory, const std::string& name) {
-  const std::string probe = temporary_name(directory + "/" + name + ".h5");
+  const std::string probe = io::temporary_name(directory + "/" + name + ".h5");
   const int descriptor = open(probe.c_str(), O_CREAT | O_EXCL | O_NOFOLLOW | O_WRONLY | O_CLOEXEC, 0666);
   if (descriptor < 0)
-    throw FileError(
-        fmt::format("cannot write into the output directory {}: {}; set output.directory", directory, system_error()));
+    throw FileError(fmt::format("cannot write into the output directory {}: {}; set output.directory", directory,
+                                io::system_error()));
   close(descriptor);
   unlink(probe.c_str());
 }
@@ -64,7 +64,7 @@ void check_could_be_made(const std::string& directory) {
                                 directory, existing.string()));
   if (access(existing.c_str(), W_OK | X_OK) != 0)
     throw FileError(fmt::format("cannot write into the output directory {}: {}: {}; set output.directory", directory,
-                                existing.string(), system_error()));
+                                existing.string(), io::system_error()));
 }
 
 /// A link to nothing, too.
@@ -74,12 +74,8 @@ bool is_there(const std::string& path) {
 }
 
 void check_absent(const std::string& path, bool overwrite) {
-  if (!is_there(path))
-    return;
-  if (const std::string kind = irregular_kind(path); !kind.empty())
-    throw FileError(fmt::format("{} is {}, which is not replaced; set output.name or output.directory", path, kind));
-  if (!overwrite)
-    throw FileError(fmt::format("{} exists; set output.overwrite = true to replace it, or another output.name", path));
+  refuse_to_replace(path, overwrite, "set output.name or output.directory",
+                    "set output.overwrite = true to replace it, or another output.name");
 }
 
 /// "NAME_step_000012.h5" and its views.
@@ -103,7 +99,7 @@ std::vector<std::string> files_in(const std::string& directory, const std::funct
   return found;
 }
 
-std::vector<std::string> leftovers(const MeshFileOptions& options) {
+std::vector<std::string> leftovers(const io::MeshFileOptions& options) {
   std::vector<std::string> told;
   const auto is_left = [&](const std::string& file) {
     return file.starts_with(options.name) && file.find(".tmp-") != std::string::npos &&
@@ -119,7 +115,7 @@ std::vector<std::string> leftovers(const MeshFileOptions& options) {
 /// A word if the disk has less room than the run is known to need; how many steps there will be is not.
 std::string space_warning(const SeriesOptions& options, double points) {
   constexpr double h5_bytes = 190, text_bytes = 700; // of a point with its two triangles
-  const double bytes = points * (h5_bytes + (options.text ? text_bytes : 0)) * (options.steps ? 2 : 1);
+  const double bytes = points * (h5_bytes + (options.wants(Format::text) ? text_bytes : 0)) * (options.steps ? 2 : 1);
   struct statvfs space {};
   if (statvfs(options.file.directory.c_str(), &space) != 0 || space.f_blocks == 0) // some file systems do not know
     return "";
@@ -134,10 +130,12 @@ std::string space_warning(const SeriesOptions& options, double points) {
 
 /// Nothing may be in the way of the files of this run.
 void check_all_absent(const SeriesOptions& options) {
-  const MeshFileOptions& file = options.file;
+  const io::MeshFileOptions& file = options.file;
   for (const char* ending : view_endings)
     check_absent(file.path(ending), file.overwrite);
-  if (options.steps || options.text)
+  for (const std::string& path : options.export_paths())
+    check_absent(path, file.overwrite);
+  if (options.steps || options.wants(Format::text))
     for (const std::string& path : files_of_series(options))
       check_absent(path, file.overwrite);
 }
@@ -152,6 +150,26 @@ std::vector<std::string> warnings_for(const SeriesOptions& options, double expec
 
 } // namespace
 
+void refuse_to_replace(const std::string& path, bool overwrite, const char* other_name, const char* advice) {
+  if (const std::string problem = io::length_problem(path, io::longest_temporary_ending); !problem.empty())
+    throw FileError(fmt::format("{} cannot be written: {}; choose a shorter one", shown(path), problem));
+  if (!is_there(path))
+    return;
+  if (const std::string kind = irregular_kind(path); !kind.empty())
+    throw FileError(fmt::format("{} is {}, which is not replaced; {}", path, kind, other_name));
+  if (!overwrite)
+    throw FileError(fmt::format("{} exists; {}", path, advice));
+}
+
+void refuse_to_replace(const std::vector<std::string>& paths, bool overwrite, const char* advice,
+                       const comm::Communicator& comm) {
+  comm::run_agreed(comm, [&] {
+    if (comm.is_root())
+      for (const std::string& path : paths)
+        refuse_to_replace(path, overwrite, "choose another name", advice);
+  });
+}
+
 std::string step_name_start(const std::string& name) {
   return name + step_infix;
 }
@@ -160,15 +178,11 @@ std::string step_name(const std::string& name, int retriangulation) {
   return fmt::format("{}{:06d}", step_name_start(name), retriangulation);
 }
 
-std::string facet_view(const MeshFileOptions& options) {
-  return options.path(facet_ending);
-}
-
-std::string xdmf_collection(const MeshFileOptions& options) {
+std::string xdmf_collection(const io::MeshFileOptions& options) {
   return options.path(xdmf_collection_ending);
 }
 
-std::string vtkhdf_collection(const MeshFileOptions& options) {
+std::string vtkhdf_collection(const io::MeshFileOptions& options) {
   return options.path(vtkhdf_collection_ending);
 }
 
@@ -179,7 +193,7 @@ bool is_file_of_run(const std::string& file, const std::string& name) {
 }
 
 std::vector<std::string> files_of_series(const SeriesOptions& options) {
-  const MeshFileOptions& file = options.file;
+  const io::MeshFileOptions& file = options.file;
   std::vector<std::string> found =
       files_in(file.directory, [&](const std::string& name) { return is_step_file(name, file.name); });
   for (const std::string& path : {xdmf_collection(file), vtkhdf_collection(file)})
@@ -192,10 +206,10 @@ std::vector<std::string> files_of_series(const SeriesOptions& options) {
 }
 
 std::vector<std::string> check_files(const SeriesOptions& options, double expected_points) {
-  const MeshFileOptions& file = options.file;
+  const io::MeshFileOptions& file = options.file;
   make_directory(file.directory);
   check_all_absent(options);
-  if (options.text)
+  if (options.wants(Format::text))
     make_directory(file.path(""));
   std::vector<std::string> warnings = warnings_for(options, expected_points);
   check_writable(file.directory, file.name);
@@ -204,10 +218,10 @@ std::vector<std::string> check_files(const SeriesOptions& options, double expect
 
 std::vector<std::string> look_at_files(const SeriesOptions& options, double expected_points) {
   check_could_be_made(options.file.directory);
-  if (options.text)
+  if (options.wants(Format::text))
     check_could_be_made(options.file.path(""));
   check_all_absent(options);
   return warnings_for(options, expected_points);
 }
 
-} // namespace trime::io
+} // namespace trime::formats

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trime/io/text_mesh.hpp"
+#include "formats/text_mesh.hpp"
 
 #include "io/text_rows.hpp"
 
@@ -8,13 +8,13 @@
 #include <cstdio>
 #include <cstdlib>
 
-namespace trime::io {
+namespace trime::formats {
 namespace {
 
 TEST(TextNumbers, AreThoseOfPrintfAndReadBackTheSame) {
   for (const double number : {0.1, 1.0, -2.5e-300, 1.0 / 3, 123456789.123456789, 0.0, -0.0, 5e-324, 1e22}) {
     std::string text;
-    append_number(text, number);
+    io::append_number(text, number);
     char expected[40];
     std::snprintf(expected, sizeof expected, "%.17g", number);
     EXPECT_EQ(text, expected);
@@ -42,4 +42,4 @@ TEST(TextMesh, TheOverallQualityHasThirteenColumns) {
 }
 
 } // namespace
-} // namespace trime::io
+} // namespace trime::formats

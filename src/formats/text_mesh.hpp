@@ -13,8 +13,10 @@
 #include <vector>
 
 namespace trime::io {
-
 class RunFiles;
+}
+
+namespace trime::formats {
 
 /// Where the files of one mesh go: FOLDER/NAME_LABEL_xy_id.txt etc.
 struct TextPlace {
@@ -24,7 +26,7 @@ struct TextPlace {
   /// Periods of the container, 0 in a direction in which it is not periodic. Triangles across the border are written
   /// whole.
   geometry::Vec2 period{0, 0};
-  RunFiles* run_files = nullptr; ///< as MeshFileOptions::run_files
+  io::RunFiles* run_files = nullptr; ///< as MeshFileOptions::run_files
 };
 
 /// One line of NAME_tria_quality_stat_overall.txt.
@@ -48,4 +50,4 @@ std::string overall_quality_text(std::span<const TextQuality> meshes);
 /// @brief True for names that write_text_mesh() gives to files, with any label; `file` has no directory.
 bool is_text_mesh_file(const std::string& file, const std::string& name);
 
-} // namespace trime::io
+} // namespace trime::formats

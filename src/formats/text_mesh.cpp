@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trime/io/text_mesh.hpp"
+#include "formats/text_mesh.hpp"
 
 #include "comm/agree.hpp"
-#include "io/boundary_loops.hpp"
+#include "formats/boundary_loops.hpp"
 #include "io/point_lookup.hpp"
 #include "io/temporary_file.hpp"
 #include "io/text_rows.hpp"
@@ -12,7 +12,7 @@
 #include <cctype>
 #include <cstring>
 
-namespace trime::io {
+namespace trime::formats {
 namespace {
 
 using geometry::Vec2;
@@ -36,7 +36,7 @@ bool is_number(std::string_view text) {
 /// Appends `value` and a blank for each value.
 template <class... T>
 void append(std::string& text, T... values) {
-  ((append_number(text, values), text += ' '), ...);
+  ((io::append_number(text, values), text += ' '), ...);
 }
 
 void append(std::string& text, Vec2 p) {
@@ -93,29 +93,29 @@ private:
   }
 
   template <class Append>
-  TextRows rows_of(std::size_t count, const Append& append_row) const {
+  io::TextRows rows_of(std::size_t count, const Append& append_row) const {
     return {static_cast<std::int64_t>(count), append_row};
   }
 
   template <class Append>
   void write_rows(const std::string& file, std::size_t count, const Append& append_row) {
-    const TextRows rows = rows_of(count, append_row);
+    const io::TextRows rows = rows_of(count, append_row);
     write_file(file, {&rows, 1});
   }
 
   /// Writes a file without a label, which the meshes of a run share: it stays even if the others are removed.
   template <class Append>
   void write_shared_rows(const std::string& name, std::size_t count, const Append& append_row) const {
-    const TextRows rows = rows_of(count, append_row);
-    write_text_rows(place_.folder + "/" + name + ".txt", {&rows, 1}, place_.run_files, comm_);
+    const io::TextRows rows = rows_of(count, append_row);
+    io::write_text_rows(place_.folder + "/" + name + ".txt", {&rows, 1}, place_.run_files, comm_);
   }
 
-  void write_file(const std::string& file, std::span<const TextRows> arrays) {
+  void write_file(const std::string& file, std::span<const io::TextRows> arrays) {
     comm::run_agreed(comm_, [&] {
       if (comm_.is_root())
         files_.add(file);
     });
-    write_text_rows(file, arrays, place_.run_files, comm_);
+    io::write_text_rows(file, arrays, place_.run_files, comm_);
   }
 
   void write_points() {
@@ -155,7 +155,7 @@ private:
     const auto write_ratio = [&](const char* ending, double (*ratio)(Vec2, Vec2, Vec2)) {
       write_rows(path(ending), count, [&](std::int64_t row, std::string& text) {
         const auto [p, q, r] = corners(row);
-        append_number(text, ratio(p, q, r));
+        io::append_number(text, ratio(p, q, r));
         text += '\n';
       });
     };
@@ -167,35 +167,35 @@ private:
   /// a boundary edge that is not comes at the end.
   template <class Append>
   void write_edge_file(const std::string& file, const Append& append_edge) {
-    const TextRows both[2] = {rows_of(mesh_.triangles.size(),
-                                      [&](std::int64_t row, std::string& text) {
-                                        const auto ids = mesh_.triangle_ids(static_cast<std::size_t>(row));
-                                        for (std::size_t k = 0; k < 3; ++k)
-                                          if (ids[k] < ids[(k + 1) % 3])
-                                            append_edge(ids[k], ids[(k + 1) % 3], text);
-                                      }),
-                              rows_of(mesh_.facets.size(), [&](std::int64_t row, std::string& text) {
-                                const auto& [first, second] = mesh_.facets[static_cast<std::size_t>(row)];
-                                if (second < first)
-                                  append_edge(second, first, text);
-                              })};
+    const io::TextRows both[2] = {rows_of(mesh_.triangles.size(),
+                                          [&](std::int64_t row, std::string& text) {
+                                            const auto ids = mesh_.triangle_ids(static_cast<std::size_t>(row));
+                                            for (std::size_t k = 0; k < 3; ++k)
+                                              if (ids[k] < ids[(k + 1) % 3])
+                                                append_edge(ids[k], ids[(k + 1) % 3], text);
+                                          }),
+                                  rows_of(mesh_.facets.size(), [&](std::int64_t row, std::string& text) {
+                                    const auto& [first, second] = mesh_.facets[static_cast<std::size_t>(row)];
+                                    if (second < first)
+                                      append_edge(second, first, text);
+                                  })};
     write_file(file, both);
   }
 
   void write_edges() {
     write_edge_file(path("tria_bar_ids"), [](GlobalId low, GlobalId high, std::string& text) {
-      append_number(text, low);
+      io::append_number(text, low);
       text += ' ';
-      append_number(text, high);
+      io::append_number(text, high);
       text += '\n';
     });
     write_edge_file(path("tria_bar_coords"), [&](GlobalId low, GlobalId high, std::string& text) {
       const Vec2 from = place_of(low), to = nearest_image(place_of(high), from, place_.period);
       append(text, from);
       text += '\n';
-      append_number(text, to.x);
+      io::append_number(text, to.x);
       text += ' ';
-      append_number(text, to.y);
+      io::append_number(text, to.y);
       text += "\n\n";
     });
   }
@@ -234,20 +234,20 @@ private:
         write_loop_file(loop_places + std::to_string(k), places);
       }
       if (!loops.empty())
-        synchronise_file_system(path(loop_ids)); // once for all of them
+        io::synchronise_file_system(path(loop_ids)); // once for all of them
     });
   }
 
   void write_loop_file(const std::string& ending, const std::string& text) {
     files_.add(path(ending));
-    write_text_file_of_many(path(ending), text, place_.run_files);
+    io::write_text_file_of_many(path(ending), text, place_.run_files);
   }
 
   const TextPlace& place_;
   const mesh::DistributedMesh& mesh_;
   const comm::Communicator& comm_;
-  PointLookup remote_;
-  FileSet files_; ///< on rank 0
+  io::PointLookup remote_;
+  io::FileSet files_; ///< on rank 0
 };
 
 } // namespace
@@ -284,4 +284,4 @@ bool is_text_mesh_file(const std::string& file, const std::string& name) {
   return std::find(endings.begin(), endings.end(), ending) != endings.end();
 }
 
-} // namespace trime::io
+} // namespace trime::formats

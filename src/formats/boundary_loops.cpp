@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "io/boundary_loops.hpp"
+#include "formats/boundary_loops.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <tuple>
 
-namespace trime::io {
+namespace trime::formats {
 namespace {
 
 double nearest_image(double p, double near, double period) {
@@ -61,7 +61,7 @@ bool is_clockwise(const std::vector<LoopVertex>& loop, geometry::Vec2 period) {
   geometry::Vec2 from{0, 0}; // relative to the first vertex: differences of near points are exact
   for (std::size_t k = 1; k <= loop.size(); ++k) {
     const geometry::Vec2 place = loop[k % loop.size()].place, before = loop[k - 1].place;
-    const geometry::Vec2 to = from + (io::nearest_image(place, before, period) - before);
+    const geometry::Vec2 to = from + (formats::nearest_image(place, before, period) - before);
     twice_area += from.x * to.y - from.y * to.x;
     from = to;
   }
@@ -93,4 +93,4 @@ std::vector<std::vector<LoopVertex>> boundary_loops(std::vector<LoopEdge> edges,
   return loops;
 }
 
-} // namespace trime::io
+} // namespace trime::formats

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "io/boundary_loops.hpp"
+#include "formats/boundary_loops.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-namespace trime::io {
+namespace trime::formats {
 namespace {
 
 /// A closed chain of edges through these points, with ids from `first_id` on.
@@ -77,4 +77,4 @@ TEST(BoundaryLoops, EndWhereTheChainIsBroken) {
 }
 
 } // namespace
-} // namespace trime::io
+} // namespace trime::formats
