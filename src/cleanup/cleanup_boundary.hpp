@@ -24,7 +24,6 @@ public:
   CleanupBoundary(const comm::Communicator& comm, const geometry::Boundary& curves, const polygon::BoundarySites& sites,
                   const sizing::SizeField& size, double tolerance);
 
-  const polygon::BoundarySites& sites_at_first() const { return sites_; }
   const polygon::BoundaryCurve& curve() const { return curve_; }
 
   /// Returns the name of an owned site.

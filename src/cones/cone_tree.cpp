@@ -11,7 +11,7 @@
 
 namespace trime::cones {
 
-BoxNode BoxTree::empty_node() {
+BoxNode BoxHierarchy::empty_node() {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   BoxNode node;
   for (std::size_t k = 0; k < width; ++k) {
@@ -21,7 +21,7 @@ BoxNode BoxTree::empty_node() {
   return node;
 }
 
-void BoxTree::set_child(BoxNode& node, std::size_t child, const Item& item) {
+void BoxHierarchy::set_child(BoxNode& node, std::size_t child, const Item& item) {
   node.min_x[child] = item.box.min.x;
   node.min_y[child] = item.box.min.y;
   node.max_x[child] = item.box.max.x;
@@ -29,11 +29,11 @@ void BoxTree::set_child(BoxNode& node, std::size_t child, const Item& item) {
   node.number[child] = item.number;
 }
 
-BoxTree::Item BoxTree::child_of(const BoxNode& node, std::size_t child) {
+BoxHierarchy::Item BoxHierarchy::child_of(const BoxNode& node, std::size_t child) {
   return {{{node.min_x[child], node.min_y[child]}, {node.max_x[child], node.max_y[child]}}, node.number[child]};
 }
 
-void BoxTree::add_levels() {
+void BoxHierarchy::add_levels() {
   while (levels_.back().size() > 1) {
     const std::vector<BoxNode>& below = levels_.back();
     std::vector<BoxNode> above((below.size() + width - 1) / width, empty_node());
@@ -105,18 +105,18 @@ std::vector<Cone> in_order(const std::vector<Cone>& cones) {
 } // namespace
 
 ConeTree::ConeTree(const std::vector<Cone>& cones, double slope) : cones_(in_order(cones)), slope_(slope) {
-  tree_ = BoxTree(cones_.size(), [&](std::size_t k) {
-    return BoxTree::Item{{cones_[k].apex, cones_[k].apex}, cones_[k].height};
+  tree_ = BoxHierarchy(cones_.size(), [&](std::size_t k) {
+    return BoxHierarchy::Item{{cones_[k].apex, cones_[k].apex}, cones_[k].height};
   });
   ConeLeaf none{};
   std::fill(std::begin(none.height), std::end(none.height), std::numeric_limits<double>::infinity());
-  leaves_.resize((cones_.size() + BoxTree::width - 1) / BoxTree::width, none);
+  leaves_.resize((cones_.size() + BoxHierarchy::width - 1) / BoxHierarchy::width, none);
   thread_loop(std::ssize(cones_), cones_in_a_row, [&](std::ptrdiff_t item, int) {
     const auto k = static_cast<std::size_t>(item);
-    ConeLeaf& leaf = leaves_[k / BoxTree::width];
-    leaf.x[k % BoxTree::width] = cones_[k].apex.x;
-    leaf.y[k % BoxTree::width] = cones_[k].apex.y;
-    leaf.height[k % BoxTree::width] = cones_[k].height;
+    ConeLeaf& leaf = leaves_[k / BoxHierarchy::width];
+    leaf.x[k % BoxHierarchy::width] = cones_[k].apex.x;
+    leaf.y[k % BoxHierarchy::width] = cones_[k].apex.y;
+    leaf.height[k % BoxHierarchy::width] = cones_[k].height;
   });
 }
 

@@ -19,7 +19,7 @@ namespace trime::cones {
 
 /// @brief Each run of eight items is a leaf, eight leaves form a node, and so on. Each box stores the least number of
 /// its items. Immutable; searches are thread-safe.
-class BoxTree {
+class BoxHierarchy {
 public:
   static constexpr std::size_t width = box_width;
 
@@ -29,12 +29,12 @@ public:
     double number;
   };
 
-  BoxTree() = default;
-  BoxTree(BoxTree&&) = default;
-  BoxTree& operator=(BoxTree&&) = default;
+  BoxHierarchy() = default;
+  BoxHierarchy(BoxHierarchy&&) = default;
+  BoxHierarchy& operator=(BoxHierarchy&&) = default;
   /// @param item_of(k) returns item k; it is thread-safe. O(n), by all threads.
   template <class ItemOf>
-  BoxTree(std::size_t items, const ItemOf& item_of);
+  BoxHierarchy(std::size_t items, const ItemOf& item_of);
 
   /// The levels; their pointers stay valid when the tree is moved.
   const BoxLevels& levels() const { return pointers_; }
@@ -69,7 +69,7 @@ private:
   BoxLevels pointers_;                       ///< pointers to levels_
 };
 
-inline void BoxTree::include(Item& all, const Item& item) {
+inline void BoxHierarchy::include(Item& all, const Item& item) {
   all.box.min.x = std::min(all.box.min.x, item.box.min.x);
   all.box.min.y = std::min(all.box.min.y, item.box.min.y);
   all.box.max.x = std::max(all.box.max.x, item.box.max.x);
@@ -78,7 +78,7 @@ inline void BoxTree::include(Item& all, const Item& item) {
 }
 
 template <class ItemOf>
-BoxTree::BoxTree(std::size_t items, const ItemOf& item_of) : items_(items) {
+BoxHierarchy::BoxHierarchy(std::size_t items, const ItemOf& item_of) : items_(items) {
   if (items == 0)
     return;
   constexpr int leaves_in_a_row = 64;
@@ -94,7 +94,7 @@ BoxTree::BoxTree(std::size_t items, const ItemOf& item_of) : items_(items) {
 }
 
 template <class Skip, class Visit>
-void BoxTree::visit_unless(std::size_t level, std::size_t node, const Skip& skip, const Visit& visit) const {
+void BoxHierarchy::visit_unless(std::size_t level, std::size_t node, const Skip& skip, const Visit& visit) const {
   for (std::size_t child = 0; child < width; ++child) {
     const Item item = child_of(levels_[level][node], child);
     if (!(item.box.min.x <= item.box.max.x))
@@ -153,7 +153,7 @@ private:
 
   std::vector<Cone> cones_;      // along a Hilbert curve
   std::vector<ConeLeaf> leaves_; // the same cones, eight at a time
-  BoxTree tree_;                 // boxes of apexes, with heights
+  BoxHierarchy tree_;            // boxes of apexes, with heights
   double slope_ = 1;
   SearchKernel kernel_ = search_kernel(simd_level());
 };

@@ -41,7 +41,6 @@ public:
 private:
   void certify_all(sites::Stage& stage, sweep::LemmaReach reach) const;
   void set_cap(double factor);
-  void raise_cap(sites::Stage& stage);
   void check_periods(const sites::Stage& stage) const;
 
   const RunContext& run_;

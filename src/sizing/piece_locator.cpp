@@ -8,7 +8,7 @@
 
 namespace trime::sizing {
 
-using cones::BoxTree;
+using cones::BoxHierarchy;
 using cones::NearestPoint;
 using cones::search_kernel;
 using cones::SegmentLeaf;
@@ -58,14 +58,16 @@ PieceLocator::PieceLocator(const geometry::Boundary& boundary, const Images& ima
         else
           segments.push_back({&piece, &shift});
       }
-  arc_tree_ = BoxTree(arcs_.size(), [&](std::size_t k) { return BoxTree::Item{arcs_[k].box, 0}; });
-  segment_tree_ = BoxTree(segments.size(), [&](std::size_t k) { return BoxTree::Item{segments[k].box(), 0}; });
+  arc_tree_ = BoxHierarchy(arcs_.size(), [&](std::size_t k) { return BoxHierarchy::Item{arcs_[k].box, 0}; });
+  segment_tree_ = BoxHierarchy(segments.size(), [&](std::size_t k) {
+    return BoxHierarchy::Item{segments[k].box(), 0};
+  });
   SegmentLeaf none{};
   std::fill(std::begin(none.a_x), std::end(none.a_x), std::numeric_limits<double>::quiet_NaN());
-  segments_.resize((segments.size() + BoxTree::width - 1) / BoxTree::width, none);
+  segments_.resize((segments.size() + BoxHierarchy::width - 1) / BoxHierarchy::width, none);
   for (std::size_t k = 0; k < segments.size(); ++k) {
-    SegmentLeaf& leaf = segments_[k / BoxTree::width];
-    const std::size_t place = k % BoxTree::width;
+    SegmentLeaf& leaf = segments_[k / BoxHierarchy::width];
+    const std::size_t place = k % BoxHierarchy::width;
     const Vec2 a = segments[k].piece->start + *segments[k].shift, d = segments[k].piece->end + *segments[k].shift - a;
     const double square = squared_length(d);
     leaf.a_x[place] = a.x;
@@ -93,8 +95,8 @@ std::optional<PieceLocator::Nearest> PieceLocator::nearest(Vec2 p, double reach)
   const Vec2 point{best.x, best.y};
   if (best.segment < 0)
     return Nearest{point, point, point};
-  const SegmentLeaf& leaf = segments_[static_cast<std::size_t>(best.segment) / BoxTree::width];
-  const std::size_t k = static_cast<std::size_t>(best.segment) % BoxTree::width;
+  const SegmentLeaf& leaf = segments_[static_cast<std::size_t>(best.segment) / BoxHierarchy::width];
+  const std::size_t k = static_cast<std::size_t>(best.segment) % BoxHierarchy::width;
   const Vec2 start{leaf.a_x[k], leaf.a_y[k]};
   return Nearest{point, start, start + Vec2{leaf.d_x[k], leaf.d_y[k]}};
 }

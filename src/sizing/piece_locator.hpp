@@ -85,9 +85,9 @@ private:
     geometry::Box box;
   };
   std::vector<cones::SegmentLeaf> segments_;
-  cones::BoxTree segment_tree_;
+  cones::BoxHierarchy segment_tree_;
   std::vector<Arc> arcs_;
-  cones::BoxTree arc_tree_;
+  cones::BoxHierarchy arc_tree_;
   cones::SearchKernel kernel_;
 };
 
