@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/processors.hpp"
 
+#include "core/thread_team.hpp"
+
 #include <omp.h>
 #include <sched.h>
 
@@ -64,11 +66,11 @@ bool are_bound() {
 
 /// Until all of a team have come here. @return whether they have. Asleep: who waits for them awake may keep the
 /// processor that they need.
-bool wait_for_all(std::atomic<int>& come) {
+bool wait_for_all(std::atomic<int>& come, int threads) {
   ++come;
-  for (int nap = 0; nap < most_naps && come < omp_get_num_threads(); ++nap)
+  for (int nap = 0; nap < most_naps && come < threads; ++nap)
     std::this_thread::sleep_for(std::chrono::microseconds(20));
-  return come >= omp_get_num_threads();
+  return come >= threads;
 }
 
 /// For each thread the processor to which it should move; -1: it stays, since no other thread uses its processor.
@@ -90,15 +92,20 @@ std::vector<int> ways_apart(const std::vector<int>& processors, const std::vecto
   return ways;
 }
 
+std::vector<int> processors_of_place(int place) {
+  std::vector<int> processors(static_cast<std::size_t>(std::max(0, omp_get_place_num_procs(place))));
+  if (!processors.empty())
+    omp_get_place_proc_ids(place, processors.data());
+  return processors;
+}
+
 } // namespace
 
 std::vector<int> usable_processors() {
   std::vector<int> processors;
   if (are_bound())
     for (int place = 0; place < omp_get_num_places(); ++place) {
-      std::vector<int> of_place(static_cast<std::size_t>(std::max(0, omp_get_place_num_procs(place))));
-      if (!of_place.empty())
-        omp_get_place_proc_ids(place, of_place.data());
+      const std::vector<int> of_place = processors_of_place(place);
       processors.insert(processors.end(), of_place.begin(), of_place.end());
     }
   else
@@ -115,20 +122,29 @@ void spread_threads(int threads, int from) {
     return;
   std::vector<int> at(static_cast<std::size_t>(threads), -1);
   std::atomic<int> started = 0, placed = 0;
-#pragma omp parallel num_threads(threads)
-  {
-    const auto thread = static_cast<std::size_t>(omp_get_thread_num());
+  on_each_thread(threads, [&](int number) {
+    const auto thread = static_cast<std::size_t>(number);
     at[thread] = sched_getcpu();
-    if (wait_for_all(started)) {
-      if (const int way = ways_apart(processors, at, from)[thread]; way >= 0) {
-        ProcessorSet one(all.room());
-        one.add(way);
-        if (one.apply())
-          all.apply();
-      }
-      wait_for_all(placed);
+    if (!wait_for_all(started, threads))
+      return;
+    if (const int way = ways_apart(processors, at, from)[thread]; way >= 0) {
+      ProcessorSet one(all.room());
+      one.add(way);
+      if (one.apply())
+        all.apply();
     }
-  }
+    wait_for_all(placed, threads);
+  });
+}
+
+bool move_to_place(int place) {
+  const std::vector<int> processors = processors_of_place(place);
+  if (processors.empty())
+    return false;
+  ProcessorSet set(std::max(CPU_SETSIZE, 1 + *std::max_element(processors.begin(), processors.end())));
+  for (const int processor : processors)
+    set.add(processor);
+  return set.apply();
 }
 
 } // namespace trime

@@ -21,4 +21,7 @@ std::vector<int> usable_processors();
 /// go apart.
 void spread_threads(int threads, int from);
 
+/// Binds the calling thread to the processors of a place of OpenMP (OMP_PLACES). @return false if it cannot
+bool move_to_place(int place);
+
 } // namespace trime

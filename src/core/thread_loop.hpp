@@ -3,6 +3,8 @@
 // body must not call MPI. It should not throw; if it does (no memory), one exception leaves the loop.
 #pragma once
 
+#include "core/thread_team.hpp"
+
 #include <omp.h>
 
 #include <algorithm>
@@ -11,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <mutex>
 #include <type_traits>
 #include <vector>
 
@@ -116,67 +119,84 @@ private:
   std::vector<Range> ranges_;
 };
 
+/// The exception that leaves a loop: that of the lowest item.
+class LoopError {
+public:
+  /// Takes what an item has just thrown.
+  void take(std::ptrdiff_t item) {
+    const std::lock_guard lock(mutex_);
+    if (!thrown_ || item < thrower_) {
+      thrower_ = item;
+      thrown_ = std::current_exception();
+    }
+  }
+  void rethrow() const {
+    if (thrown_)
+      std::rethrow_exception(thrown_);
+  }
+
+private:
+  std::mutex mutex_;
+  std::exception_ptr thrown_;
+  std::ptrdiff_t thrower_ = 0;
+};
+
 /// Calls body(item, thread) for item in [0, n), `chunk` items at a time, on any thread (see ItemRanges). Rethrows the
 /// exception of the lowest item that throws, after all others are done: the same one on any number of threads.
 template <class Body>
 void thread_loop(std::ptrdiff_t n, int chunk, const Body& body) {
-  std::exception_ptr thrown;
-  std::ptrdiff_t thrower = n;
+  LoopError error;
   const int threads = n > chunk ? thread_count() : 1;
   ItemRanges items(n, threads, chunk);
-#pragma omp parallel num_threads(threads) if (threads > 1)
-  {
-    const int thread = omp_get_thread_num();
+  on_each_thread(threads, [&](int thread) {
     items.take(thread, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
       for (std::ptrdiff_t item = begin; item < end; ++item)
         try {
           body(item, thread);
-        } catch (...) { // an exception must not cross the end of a parallel region
-#pragma omp critical(trime_thread_loop)
-          if (item < thrower) {
-            thrower = item;
-            thrown = std::current_exception();
-          }
+        } catch (...) { // other threads may be in the loop
+          error.take(item);
         }
     });
-  }
-  if (thrown)
-    std::rethrow_exception(thrown);
+  });
+  error.rethrow();
 }
 
 /// @brief As above, while the calling thread does `work`, which may call MPI but must not throw; it joins the loop
 /// afterwards.
 template <class Work, class Body>
 void thread_loop_beside(const Work& work, std::ptrdiff_t n, const Body& body) {
-  std::exception_ptr thrown;
-  ItemRanges items(n, thread_count(), 1);
-#pragma omp parallel
-  {
-    const int thread = omp_get_thread_num();
+  LoopError error;
+  const int threads = thread_count();
+  ItemRanges items(n, threads, 1);
+  on_each_thread(threads, [&](int thread) {
     if (thread == 0)
       work();
     items.take(thread, [&](std::ptrdiff_t item, std::ptrdiff_t) {
       try {
         body(item, thread);
       } catch (...) {
-#pragma omp critical(trime_thread_loop)
-        if (!thrown)
-          thrown = std::current_exception();
+        error.take(item);
       }
     });
-  }
-  if (thrown)
-    std::rethrow_exception(thrown);
+  });
+  error.rethrow();
 }
 
 /// Sum (mod 2^64) of term(item) over items [0, n): the same for any threads. The terms must not throw.
 template <class Term>
 std::uint64_t thread_sum(std::size_t n, const Term& term) {
   constexpr std::size_t few = 4096;
+  PerThread<std::uint64_t> sums(std::uint64_t{0});
+  thread_loop(static_cast<std::ptrdiff_t>((n + few - 1) / few), 1, [&](std::ptrdiff_t block, int thread) {
+    const std::size_t begin = static_cast<std::size_t>(block) * few, end = std::min(n, begin + few);
+    std::uint64_t sum = 0;
+    for (std::size_t item = begin; item < end; ++item)
+      sum += term(item);
+    sums[thread] += sum;
+  });
   std::uint64_t sum = 0;
-#pragma omp parallel for schedule(static) reduction(+ : sum) if (n > few)
-  for (std::size_t item = 0; item < n; ++item)
-    sum += term(item);
+  for (const std::uint64_t of_thread : sums)
+    sum += of_thread;
   return sum;
 }
 
