@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Runs the program on a simulated cluster: SimGrid's SMPI makes all ranks take turns on one core of this machine, times
 # what they compute, and simulates what they send over the network that a platform file describes. The run is repeated,
-# and each stretch of work between two calls of MPI takes the least of its times: see src/comm/simulated_work.hpp.
+# and each stretch of work between two calls of MPI takes the least of its times: see scripts/cluster/simulated_work.hpp.
 #   scripts/simulate_cluster.sh --ranks P [options] config.ini [section.key=value ...]
 #     --report FILE    the numbers of the run as JSON; its seconds are simulated
 #     --cluster FILE   the platform: nodes named node0, node1, ... (scripts/cluster/fat_tree.xml)

@@ -102,7 +102,7 @@ build() {
 
 # The bytes of our sources against .clang-format.
 check_format() {
-  find include src tests \( -name '*.hpp' -o -name '*.cpp' \) -print0 | xargs -0 clang-format --dry-run -Werror
+  find include src tests scripts/cluster \( -name '*.hpp' -o -name '*.cpp' \) -print0 | xargs -0 clang-format --dry-run -Werror
 }
 export -f check_format
 

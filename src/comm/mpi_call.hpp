@@ -3,7 +3,6 @@
 #pragma once
 
 #include "comm/native.hpp"
-#include "comm/simulated_work.hpp"
 #include "trime/core/error.hpp"
 #include "trime/core/timer.hpp"
 
@@ -11,7 +10,21 @@
 #include <string>
 #include <vector>
 
+#ifdef TRIME_SIMULATE
+#include <simulated_work.hpp> // in scripts/cluster
+#endif
+
 namespace trime::comm {
+
+#ifndef TRIME_SIMULATE
+/// Stops the clock of a simulated cluster (scripts/cluster/simulated_work.hpp), and does nothing in real runs.
+struct InMpi {
+  InMpi() {}
+  ~InMpi() {}
+};
+inline void begin_simulated_work() {}
+inline void end_simulated_work() {}
+#endif
 
 /// The kind of exchange that a message belongs to.
 enum Tag : int { tag_known = 101, tag_head = 102, tag_bundle = 103, tag_scan = 104 };

@@ -5,27 +5,19 @@
 // between two calls of MPI takes the least of its times: the calls of a rank are the same in each run.
 #pragma once
 
-#include "trime/comm/communicator.hpp"
-
 namespace trime::comm {
 
-/// Lives while a rank is in MPI, and stops the clock of its work. May be nested. Does nothing in real runs.
+/// Lives while a rank is in MPI, and stops the clock of its work. May be nested.
 class InMpi {
 public:
-#ifdef TRIME_SIMULATE
   InMpi();
   ~InMpi();
-#else
-  InMpi() {}
-  ~InMpi() {}
-#endif
   InMpi(const InMpi&) = delete;
   InMpi& operator=(const InMpi&) = delete;
 };
 
 /// Begins and ends the measurement of the work of this rank. The environment variable TRIME_SIMULATED_WORK names a
 /// directory, which keeps the least times of each rank from run to run; without it, the times of this run are used.
-/// Both do nothing in real runs.
 void begin_simulated_work();
 void end_simulated_work();
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "comm/simulated_work.hpp"
-
-#ifdef TRIME_SIMULATE
+#include "simulated_work.hpp"
 
 #include "comm/mpi_call.hpp"
+#include "trime/comm/communicator.hpp"
 
 #include <mpi.h>
 #include <simgrid/host.h>
@@ -119,14 +118,3 @@ void end_simulated_work() {
 }
 
 } // namespace trime::comm
-
-#else
-
-namespace trime::comm {
-
-void begin_simulated_work() {}
-void end_simulated_work() {}
-
-} // namespace trime::comm
-
-#endif
