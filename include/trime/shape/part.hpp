@@ -52,8 +52,8 @@ public:
   /// @brief Returns the closed boundary with the interior on the left; a circle has four arcs that start at the right.
   /// Loops are in the order of the rings, with tags from 1 and `part` 0.
   std::vector<geometry::Loop> boundary() const;
-  /// @brief Is p inside? Exact for lattice points; a point on the boundary may get either answer. O(log M),
-  /// thread-safe.
+  /// @brief Returns whether p lies inside. Exact for lattice points; a point on the boundary may get either answer.
+  /// O(log M), thread-safe.
   bool inside(geometry::Vec2 p) const;
   /// Returns the distance from p to the boundary of the part. Thread-safe.
   double distance(geometry::Vec2 p) const;

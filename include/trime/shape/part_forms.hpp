@@ -27,7 +27,7 @@ struct Polygon {
   };
   geometry::SegmentGrid grid; ///< segments ring by ring, each starting where the one before it ends
   std::vector<Ring> rings;
-  std::vector<int> markers{};              ///< of each segment; empty: all are 0, which means no marker
+  std::vector<int> markers{};              ///< marker of each segment; 0 for no marker; empty if all are 0
   std::vector<std::string> marker_names{}; ///< Contour::marker_names
 };
 

@@ -18,7 +18,7 @@ inline constexpr std::string_view domain_name = "domain";
 /// A parsed expression over parts that are known by their index. Immutable.
 class Region {
 public:
-  static constexpr int max_depth = 64; ///< of nested operations
+  static constexpr int max_depth = 64; ///< largest depth of nested operations
 
   /// @brief Parses `text`; leaves refer to `part_names` by index, `domain` to the index part_names.size().
   /// @throws ConfigError with the position, or with the known names and the nearest one
