@@ -152,7 +152,7 @@ private:
   LowestCone find(geometry::Vec2 p, double bound, double slack) const;
 
   std::vector<Cone> cones_;      // along a Hilbert curve
-  std::vector<ConeLeaf> leaves_; // the same cones, eight at a time
+  std::vector<ConeLeaf> leaves_; // all cones, eight at a time
   BoxTree tree_;                 // boxes of apexes, with heights
   double slope_ = 1;
   SearchKernel kernel_ = search_kernel(simd_level());
