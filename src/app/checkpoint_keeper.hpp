@@ -75,13 +75,13 @@ private:
   const CheckpointOptions options_;
   const double time_limit_;
   const checkpoint::Origin origin_;
-  std::int64_t number_ = -1; // of the last checkpoint; -1: not known yet
+  std::int64_t number_ = -1; // number of the last checkpoint; -1 if not known yet
   Phase phase_ = Phase::sweeping;
   bool found_stop_file_ = false; // on rank 0; it counts until a checkpoint stops the run
   bool stops_no_more_ = false;   // a stop has failed
   double asked_ = 0, sweep_ = 0, written_ = 0, longest_writing_ = 0,
          looked_ = -1e9; // seconds of rank 0
-  std::string reason_;   // of the last wish of rank 0
+  std::string reason_;   // reason for the last wish of rank 0
 };
 
 } // namespace trime::app

@@ -14,7 +14,7 @@ struct CommandLine {
   Action action = Action::mesh;
   std::string config;                 ///< path; empty only where none is needed
   std::vector<std::string> overrides; ///< section.key=value, those that options stand for included
-  std::vector<std::string> files;     ///< of convert and info
+  std::vector<std::string> files;     ///< files of convert and info
   bool overwrite = false;             ///< convert: the file may be there
   std::string report;                 ///< where the numbers of the run go as JSON; empty: nowhere
   std::string restart;                ///< a checkpoint to go on from, or `auto`; empty: from the start

@@ -12,12 +12,12 @@ namespace trime::app {
 
 struct Placement {
   int ranks = 1;
-  int setup_threads = 1, threads = 1; ///< of this rank: while shape and size field are made, and from then on
+  int setup_threads = 1, threads = 1; ///< threads of this rank while shape and size field are made, and afterwards
   int asked = 1;                      ///< the larger number as it was asked for: this rank may use fewer
   int nodes = 1;
   int cores = 1;   ///< processors that this rank may use
   int sharing = 1; ///< ranks of this node with exactly these processors
-  int before = 0;  ///< of these, how many are lower than this one
+  int before = 0;  ///< number of these ranks that are lower than this one
 };
 
 /// @brief Finds where the ranks are, and how many threads each uses: the number asked for if positive, else

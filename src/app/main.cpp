@@ -2,6 +2,7 @@
 // trime_mpi: starts and ends MPI, and turns errors into messages and exit codes. The only try of the program.
 #include "app/large_arrays.hpp"
 #include "app/program.hpp"
+#include "app/short_waits.hpp"
 #include "app/signal_requests.hpp"
 #include "app/user_places.hpp"
 #include "comm/agree.hpp"
@@ -145,6 +146,7 @@ ExitCode run(int argc, char** argv, const trime::comm::Communicator& comm, const
 } // namespace
 
 int main(int argc, char** argv) {
+  trime::app::shorten_waits(argv);
   trime::app::prepare_large_arrays();
   trime::io::RunFiles files;
   run_files = &files;

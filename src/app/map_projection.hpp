@@ -14,8 +14,8 @@ namespace trime::app {
 /// Which place of the Earth a coordinate of the container is; all empty: unknown.
 struct MapSystem {
   std::string crs{};             ///< reference system, as PROJ names it
-  std::string well_known_text{}; ///< the same, whole
-  std::string crs_of_files{};    ///< of the contour files
+  std::string well_known_text{}; ///< its complete definition
+  std::string crs_of_files{};    ///< reference system of the contour files
 };
 
 /// @brief Projects the contours as [shape] projection says; without it only asks which system their files name.

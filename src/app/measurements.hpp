@@ -30,7 +30,7 @@ private:
 /// A section of the timers over the ranks.
 struct Phase {
   std::string name;
-  std::int64_t calls = 0;            ///< of the rank with most
+  std::int64_t calls = 0;            ///< number of calls on the rank with most
   double min = 0, mean = 0, max = 0; ///< seconds
   CounterSpreads counters{};
 };
@@ -38,7 +38,7 @@ struct Phase {
 /// The combined measurements of the ranks.
 struct Measurements {
   std::vector<Phase> phases; ///< sections, then "other": the means add up to the total
-  CounterSpreads counters;   ///< of the whole run
+  CounterSpreads counters;   ///< counters of the whole run
   double total = 0;          ///< seconds, mean over ranks
   int ranks = 1;
   std::int64_t peak_memory = 0, memory_sum = 0; ///< bytes: largest of a rank, and of all ranks together

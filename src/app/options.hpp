@@ -27,7 +27,7 @@ struct PartOptions {
   std::array<geometry::Vec2, 3> corners;
   std::string file;              ///< path as the program can open it
   bool file_is_relative = false; ///< the user wrote it relative to the config file
-  std::string attribute;         ///< of the features of a map that names the boundary; empty: none
+  std::string attribute;         ///< attribute of map features that names the boundary; empty if not used
   bool normalize = false;
   std::string sdf; ///< formula of x and y
 };
@@ -57,7 +57,7 @@ struct CheckpointOptions {
 struct RunOptions {
   std::vector<PartOptions> parts;
   std::string geometry;   ///< the expression that joins the parts
-  std::string projection; ///< of the contours: empty: none; `auto`; or a reference system that PROJ knows
+  std::string projection; ///< projection of contours: empty, `auto`, or a reference system that PROJ knows
   bool periodic_x = false, periodic_y = false; ///< sides of the container, for the frame in which the shape is made
   geometry::Box container = geometry::unit_square;
   bool container_is_automatic = false; ///< no side is given: the container may become one around the shape

@@ -58,11 +58,11 @@ private:
   void keep(const IniEntry& entry);
 
   std::map<std::string, int> section_lines_; ///< where each section is opened first
-  std::map<IniKey, int> lines_;              ///< of the entries of the document
+  std::map<IniKey, int> lines_;              ///< line of each entry of the document
   std::vector<std::string> parts_;
   std::set<std::string> part_names_;                 ///< parts_, to find them
   std::map<IniKey, std::string> good_;               ///< values in force that the user has set
-  std::map<std::string, std::vector<IniEntry>> own_; ///< the same by section, in the order of the file
+  std::map<std::string, std::vector<IniEntry>> own_; ///< values in force by section, in the order of the file
   std::set<IniKey> meant_;                           ///< what misspelt sections and keys were probably meant to set
   int misspelt_ = 0;                                 ///< names that are not known
 };

@@ -34,7 +34,7 @@ struct ShapeInput {
   contours::Normalization
       fixed_points_place;                 ///< what fixed points undergo: that of the contour they are normalised with
   std::vector<NormalizedPart> normalized; ///< in the order of the parts
-  MapSystem map;                          ///< of the container
+  MapSystem map;                          ///< reference system of the container
 };
 
 /// @brief Reads each file once, and writes warnings to the log.

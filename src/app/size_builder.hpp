@@ -16,7 +16,7 @@ namespace trime::app {
 
 /// A size field with what it needs to live. Move-only.
 struct BuiltSize {
-  std::unique_ptr<const Formula> formula; ///< of an expression
+  std::unique_ptr<const Formula> formula; ///< formula of an expression
   std::unique_ptr<const sizing::SizeField> field;
   std::string description; ///< for the report: "automatic, gradation 0.1, features of 0.004 and more"
 };

@@ -14,7 +14,7 @@ namespace trime::app {
 
 /// A contour that was normalised: container = scale * user + shift.
 struct NormalizedPart {
-  std::string name; ///< of the part
+  std::string name; ///< name of the part
   std::string file;
   double scale = 1;
   geometry::Vec2 shift;
@@ -47,7 +47,7 @@ private:
     std::vector<geometry::Vec2> vertices;
     std::vector<int> lines;
     std::vector<std::size_t> ring_ends;  ///< the vertex behind the last of each ring
-    std::vector<geometry::Vec2> in_file; ///< of each vertex if they are projected, else empty
+    std::vector<geometry::Vec2> in_file; ///< place in the file of each vertex; empty if not projected
   };
   std::string name_of(geometry::Vec2 place) const;
 

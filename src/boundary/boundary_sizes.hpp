@@ -58,7 +58,7 @@ public:
   struct Sampled {
     const SizeSamples& relative;
     const sizing::ScaledSize& asked;    ///< size asked for in the last stage
-    const sizing::LoweredSize* lowered; ///< the same, lowered by limits; null if there are no limits
+    const sizing::LoweredSize* lowered; ///< that size, lowered by limits; null if there are no limits
     double coarsening;                  ///< h of this stage over h of the last stage
   };
   BoundarySizes(const sizing::SizeField& size, const sizing::SizeField& asked, const Sampled& sampled)
@@ -71,7 +71,7 @@ public:
     std::size_t loop;
     LocalIndex piece;
     double along, whole;      ///< arc length from the start of the piece, and length of the piece
-    geometry::Vec2 canonical; ///< the same place in the container
+    geometry::Vec2 canonical; ///< this place in the container
   };
   /// @throws GeometryError if a size is not positive and finite
   SizePair at(const PiecePlace& place, SizeSamples::Cursor& cursor) const;

@@ -91,7 +91,7 @@ Source read_part(const ConfigText& config, const std::string& name) {
     else if (part.rings = read_rings(*text); part.rings.empty())
       part.reason = fmt::format("{} has no rings", path);
   } else
-    part.reason = fmt::format("a part of type '{}' has no curve of its own", part.type);
+    part.reason = fmt::format("a part of type '{}' has no curve", part.type);
   return part;
 }
 

@@ -39,7 +39,7 @@ struct Shape {
   Box container;
   std::string container_reason; ///< why the container is not known; then `container` is the box of the mesh
   Periods periods;
-  double step = 0; ///< of the lattice on which all coordinates lie
+  double step = 0; ///< step of the lattice on which all coordinates lie
   std::vector<Point> fixed_points;
   std::string fixed_points_reason; ///< why the fixed points are not known
 

@@ -204,7 +204,7 @@ private:
       report_.add("corners", missing.count <= left_out,
                   left_out > 0 ? fmt::format("{} to {}", expected - left_out, expected) : std::to_string(expected),
                   found, fmt::format("corners of the config that are vertices; {} may be left out", left_out),
-                  missing.count == 0 ? "" : "first that is none: " + missing.place);
+                  missing.count == 0 ? "" : "first that is not a vertex: " + missing.place);
   }
 
   void check_vertices() {

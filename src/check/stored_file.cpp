@@ -248,7 +248,7 @@ void read_elements(const ArrayReader& reader, Mesh& mesh) {
     mesh.facets.push_back({ends[k], ends[k + 1]});
 }
 
-/// What belongs to facets, triangles and points.
+/// Reads the data of facets, triangles and points.
 void read_fields(const ArrayReader& reader, Mesh& mesh) {
   const auto n = std::ssize(mesh.points), m = std::ssize(mesh.triangles), b = std::ssize(mesh.facets);
   mesh.facet_tags = reader.integers("/Mesh/facets/values", "int32", {b});

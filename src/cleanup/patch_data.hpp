@@ -56,7 +56,7 @@ struct BoundaryLink {
 struct SiteVerdict {
   geometry::Vec2 position; ///< after the patch
   double size;             ///< h
-  double alpha;            ///< of its worst triangle if that is bad, else 0
+  double alpha;            ///< alpha of its worst triangle if that is bad, otherwise 0
   std::int64_t rests;      ///< nothing helped for its bad triangles, and it has not moved much since
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Work in which all ranks take part: errors that every rank throws together, so that no rank waits in a collective for
-// one that has left; whether all ranks have an error; and results that ranks and threads compute in shares and that
-// every rank needs.
+// Work in which all ranks take part. Every rank throws the same error, so that no rank waits in a collective for one
+// that has left. Ranks and threads compute shares of results that every rank needs. One function finds out whether all
+// ranks have an error.
 #pragma once
 
 #include "core/thread_loop.hpp"

@@ -14,7 +14,7 @@ struct Communicator::Native {
 
   MPI_Comm comm = MPI_COMM_NULL;
   int rank = 0;
-  mutable Counters counters{}; // of this rank
+  mutable Counters counters{}; // counters of this rank
 };
 
 inline MPI_Comm native_handle(const Communicator& communicator) {

@@ -48,7 +48,7 @@ void warn_of_one_thread() {
 }
 
 #ifdef OPEN_MPI
-/// What Open MPI goes by as it chooses the file writer; "?" if it does not say.
+/// Returns the setting by which Open MPI chooses the file writer; "?" if it is not known.
 std::string chosen_writers() {
   std::string value = "?";
   int provided = 0, index = 0, length = 0;
@@ -93,8 +93,8 @@ void warn_of_wrong_writer([[maybe_unused]] bool speaks) {
   [[maybe_unused]] static const bool is_done = [&] {
     if (chosen_writers().empty() && speaks)
       std::fputs("trime: warning: the program opened a file by MPI before it used this library, so Open MPI may write "
-                 "mesh files by its component 'vulcan', which is known to write wrong data; every file is read back "
-                 "and compared, and setting OMPI_MCA_fcoll=^vulcan avoids the risk\n",
+                 "mesh files by its component 'vulcan', which is known to write wrong data. Every file is read back "
+                 "and compared; setting OMPI_MCA_fcoll=^vulcan avoids the risk\n",
                  stderr);
     return true;
   }();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A hierarchy of boxes over a sequence of items whose neighbours lie close together, eight at a time; and with it the
-// lower envelope of cones of one slope, min over k of slope |x - apex_k| + height_k, by branch and bound: nearest
-// neighbours with additive weights, and plain nearest neighbours (slope 1, heights 0).
+// A hierarchy of boxes over a sequence of items whose neighbours lie close together, eight at a time. A second class
+// finds the lower envelope of cones of one slope, min over k of slope |x - apex_k| + height_k, by branch and bound.
+// This includes nearest neighbours: with additive weights, or plain ones (slope 1, heights 0).
 #pragma once
 
 #include "cones/cone_kernel.hpp"
@@ -152,7 +152,7 @@ private:
   LowestCone find(geometry::Vec2 p, double bound, double slack) const;
 
   std::vector<Cone> cones_;      // along a Hilbert curve
-  std::vector<ConeLeaf> leaves_; // the same cones, eight at a time
+  std::vector<ConeLeaf> leaves_; // all cones, eight at a time
   BoxHierarchy tree_;            // boxes of apexes, with heights
   double slope_ = 1;
   SearchKernel kernel_ = search_kernel(simd_level());

@@ -110,9 +110,9 @@ geometry::Vec2 lowest_point(const double* pairs, std::size_t count, const geomet
 
 /// Some blocks with the cells below them, with separate indices.
 struct CellPart {
-  std::vector<CellNode> roots; ///< of the blocks, row by row
+  std::vector<CellNode> roots; ///< roots of the blocks, row by row
   std::vector<CellChildren> children;
-  std::vector<double> numbers;                                         ///< of the leaves
+  std::vector<double> numbers;                                         ///< numbers of the leaves
   double least = std::numeric_limits<double>::infinity(), largest = 0; ///< bounds of the field
 };
 

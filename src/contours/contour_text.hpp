@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads the text of contours and point files: lines, numbers, and messages for users whose text is something else.
-// Each format has its reader in a source of its own; that of ESRI shapefiles uses libshp.
+// Each format has a reader in a separate source; the reader of ESRI shapefiles uses libshp.
 #pragma once
 
 #include "trime/contours/contour.hpp"

@@ -110,13 +110,13 @@ bool StarKernel::start_ring(std::span<const LocalIndex> ids, const Vec2* positio
   return is_locally_convex();
 }
 
-/// @brief Every neighbour lies outside the disc of the two before it: with one counter-clockwise turn, that makes the
-/// ring the edges of a convex cell in order.
+/// @brief Returns whether every neighbour lies outside the disc of the two before it. If the ring also winds once
+/// counter-clockwise, it gives the edges of a convex cell in order.
 ///
 /// For consecutive neighbours a, b, q the determinant (positive: q is outside) is |a|^2 b x q + |b|^2 q x a + |q|^2 a x
-/// b; the sum of the magnitudes in it is at most |a|^2 |b|^2 + |b|^2 |q|^2 + |q|^2 |a|^2, since |ux vy| + |uy vx| <=
-/// (u^2 + v^2) / 2. The squared circumradius |a|^2 |b|^2 |a - b|^2 / (4 (a x b)^2) is known to 1e-8 of itself where a x
-/// b is at least ConvexityRules::least_turn of |a|^2 + |b|^2; flatter stars are left to the other path.
+/// b. The sum of the magnitudes in it is at most |a|^2 |b|^2 + |b|^2 |q|^2 + |q|^2 |a|^2, because |ux vy| + |uy vx| <=
+/// (u^2 + v^2) / 2. The squared circumradius |a|^2 |b|^2 |a - b|^2 / (4 (a x b)^2) has a relative error below 1e-8
+/// where a x b is at least ConvexityRules::least_turn of |a|^2 + |b|^2; flatter stars are left to the exact path.
 bool StarKernel::is_locally_convex() {
   const std::size_t n = degree_;
   Mask2 bad{0, 0}, undecided{0, 0};

@@ -83,7 +83,7 @@ private:
   geometry::Lattice lattice_;
   geometry::Periods periods_; // only periods need the place of the center
   geometry::Vec2 center_;
-  double virtual_distance_ = 0; // of the last start_virtual; corner_ is a corner of its cell
+  double virtual_distance_ = 0; // distance of the last start_virtual, whose cell has corner_
   geometry::Vec2 corner_;
   double corner_error_ = 0, corner_r2_ = 0;
   double squared_radius_ = -1; // negative if not known

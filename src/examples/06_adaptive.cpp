@@ -13,7 +13,7 @@
 using trime::at;
 using trime::Vec2;
 
-/// What stands for a solution: a front along a circle.
+/// Stands for the solution of a solver: a front along a circle.
 double solution(Vec2 p) {
   return std::tanh(40 * (std::hypot(p.x - 0.5, p.y - 0.5) - 0.3));
 }

@@ -22,11 +22,11 @@ inline double source(Vec2 p) {
   return 3 * solution(p);
 }
 
-/// This rank's part of a mesh of about so many points. Collective.
+/// Returns this rank's part of a mesh with about `points` points. Collective.
 inline trime::LocalMesh mesh(MPI_Comm comm, trime::GlobalId points, trime::handover::Overlap overlap) {
   auto shape = trime::rectangle("plate", {0.05, 0.05}, {0.95, 0.95}) - trime::circle("hole", {0.5, 0.5}, 0.2);
   auto mesh = trime::make_mesh(comm, shape, {.points = points});
-  if (!mesh.certified()) // the same on all ranks
+  if (!mesh.certified()) // all ranks get the same result
     throw trime::GeometryError("a check of the mesh failed: solve on another number of points");
   return mesh.local(overlap);
 }

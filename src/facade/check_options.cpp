@@ -20,7 +20,7 @@ std::string text_of(const std::optional<Box>& box) {
   return box ? fmt::format("({}, {}) to ({}, {})", box->min.x, box->min.y, box->max.x, box->max.y) : "none";
 }
 
-/// What the ranks must agree on, one item each line.
+/// Returns the facts on which the ranks must agree, one on each line.
 std::vector<std::string> items_of(const Shape& shape, const MeshOptions& options) {
   const boundary::FeatureOptions& features = options.features;
   std::vector<std::string> items{"shape " + shape.text(),

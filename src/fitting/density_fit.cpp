@@ -28,24 +28,24 @@ constexpr int estimate_rounds = 6;
 // [1] A factor that changes by a smaller share ends the estimates.
 constexpr double estimate_precision = 0.02;
 
-// [1] The same where corners crowd: the estimate is rough there anyway.
+// [1] A factor that changes by a smaller share ends the estimates if many corners make them rough in any case.
 constexpr double crowded_precision = 0.2;
 
-// [rounds] In so many, at most, the factor and the limits of the size are found together, with a layout each.
+// [rounds] Largest number of rounds that find the factor and the limits of the size together, with one layout each.
 constexpr int approach_rounds = 8;
 
-// [boundary sites] If there are more limits of the size than this share, they hold so many points that crowded_power
-// applies.
+// [boundary sites] If there are more limits of the size than this share, crowded_power applies, because many points lie
+// around them.
 constexpr double crowded_share = 0.05;
 
-// [1] The points grow by this power of the factor where limits hold many of them: less than by -2, since limits
-// stay. First guess of the secant only.
+// [1] Power of the factor by which the number of points changes if limits hold many of them. It is weaker than -2,
+// because limits stay. It is only the first guess of the secant.
 constexpr double crowded_power = -1.6;
 
-// [1] The last trial on the way leaves out one round of limits; its count is raised by this for them.
+// [1] The last trial leaves out one round of limits; its count is multiplied by this to make up for them.
 constexpr double limits_to_come = 1.08;
 
-// [rounds] In so many, at most, the factor for an edge length is found.
+// [rounds] Largest number of rounds that find the factor for an edge length.
 constexpr int edge_length_rounds = 12;
 
 using boundary::BoundaryRules;
@@ -125,7 +125,7 @@ private:
     for (int round = 0; round < approach_rounds; ++round) {
       sites::Stage laid = trials_.lay(factor);
       const bool first = trials_.limit_rounds() == 0;
-      search_.expect(crowded ? crowded_power : FitRules::uncrowded_power); // trials with other limits tell nothing
+      search_.expect(crowded ? crowded_power : FitRules::uncrowded_power); // trials with other limits do not count
       if (!trials_.find_limits(laid))
         return {factor, trials_.count(std::move(laid), trials_.coarsening())};
       if (first) {
@@ -169,7 +169,7 @@ private:
     return found;
   }
 
-  /// @param uniform size of a uniform mesh of so many points
+  /// @param uniform size of a uniform mesh with this number of points
   /// @param smallest size for a factor of 1
   DensityResult for_points(double uniform, double smallest) {
     FactorBracket bracket(points_, smallest, context_.domain.frame().container());
@@ -231,7 +231,8 @@ private:
   const LayoutContext& context_;
   double points_;
   SizeTrials trials_;
-  double rough_; // coarsening on the way to a factor: of so many points twice as wide cells err by less than 1 % too
+  double
+      rough_; // coarsening during the search: with many points, cells that are twice as wide still err by less than 1 %
   FactorSearch search_;
 };
 

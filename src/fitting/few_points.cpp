@@ -14,8 +14,8 @@ namespace {
 // taken.
 constexpr double many_points = 64;
 
-// [points asked for] If the count jumps and fewer than this share come out, there is no mesh of so many points, and
-// an error says so.
+// [points asked for] If the count jumps and a trial has less than this share, there is no mesh with this number of
+// points, which is an error.
 constexpr double least_of_jump = 0.5;
 
 } // namespace

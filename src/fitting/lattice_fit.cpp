@@ -15,22 +15,22 @@
 namespace trime::fitting {
 namespace {
 
-// [rounds] The boundary of a lattice start is laid so often, each time with the spacing found for the one before.
+// [rounds] How often the boundary of a lattice start is laid, each time with the spacing found for the one before.
 constexpr int boundary_rounds = 3;
 
-// [rounds] In so many, at most, the spacing of a lattice is found for one boundary.
+// [rounds] Largest number of rounds that find the spacing of a lattice for one boundary.
 constexpr int spacing_rounds = 12;
 
 // [1] If the spacing differs from that of the boundary by a smaller share, the boundary is not laid again.
 constexpr double same_spacing = 0.02;
 
-// [points] The search for the spacing ends when fewer than one site in so many is missing.
+// [points] The search for the spacing ends when fewer than one in this number of sites is missing.
 constexpr std::int64_t spacing_precision = 5000;
 
-// [rounds] In so many, at most, a uniform size grows until the boundary takes no more sites than asked for.
+// [rounds] Largest number of rounds in which a uniform size grows until the boundary has no more sites than asked for.
 constexpr int growth_rounds = 24;
 
-// [1] By this factor that size grows in a round.
+// [1] Factor by which that size grows in a round.
 constexpr double size_growth = 1.3;
 
 // [h] A lattice with a larger spacing has so few sites that its spacing says nothing about h.
@@ -38,8 +38,8 @@ constexpr double comparable_spacing = 2;
 
 using sites::Stage;
 
-/// @brief Sites on the boundary at size h, or at the next larger size at which they are not more than the points asked
-/// for. Nothing if there is none, or only one that is too large for so many points.
+/// @brief Makes the sites on the boundary at size h, or at the next larger size at which there are at most as many as
+/// the points asked for. Returns nothing if no such size exists, or if it is too large for this number of points.
 std::optional<Stage> lay_affordable_boundary(const LayoutContext& context, double h, double expected, Fewest& fewest) {
   for (int round = 0; round < growth_rounds; ++round) {
     FittedSize fitted{h};
@@ -69,7 +69,8 @@ public:
   double spacing() const { return spacing_; }
   /// No spacing is likely to have noticeably more sites.
   bool is_over() const { return wanted_ - best_ <= wanted_ / spacing_precision; }
-  /// Takes in how many sites there are at the present spacing, and goes to the next. True if there were none better.
+  /// Takes the number of sites at the present spacing, and goes to the next spacing. Returns true if this one is the
+  /// best so far.
   bool step(GlobalId count) {
     const bool better = count <= wanted_ && count >= best_;
     if (count > wanted_) {
@@ -131,7 +132,7 @@ LatticeFit fit_edge_length(const LayoutContext& context, double relative) {
   return fit;
 }
 
-/// At least so many points have no larger triangles than `most`.
+/// Returns about how many points are needed so that no triangle is larger than `most`.
 double points_of_largest(const LayoutContext& context, double most) {
   return context.given_boundary.area / (row_height * most * most) + 0.5 * context.given_boundary.length() / most;
 }

@@ -107,8 +107,8 @@ const geometry::Boundary& generalised_curves(const LayoutContext& context, Fitte
   return curves.found->boundary;
 }
 
-/// What lays the sites of a stage. The sizes must outlive it. Local.
-/// @param asked of the stage
+/// Makes the object that lays the sites of a stage. The sizes must outlive it. Local.
+/// @param asked the size asked for in the stage
 std::unique_ptr<BoundaryRefiner> make_refiner(const LayoutContext& context, std::size_t affordable,
                                               const sizing::ScaledSize& asked, FittedSize& fitted, Stage& stage) {
   const bool keeps_all = context.options.features.keep_all;
@@ -127,13 +127,13 @@ std::unique_ptr<BoundaryRefiner> make_refiner(const LayoutContext& context, std:
   return make({*stage.size, asked, {*samples, *stage.asked_size, stage.lowered_size.get(), stage.coarsening}});
 }
 
-/// Edge length of so many equal triangles' vertices, the boundary not counted.
+/// Returns the edge length of equal triangles with `expected` vertices that fill the shape, without its boundary.
 double typical_size(const LayoutContext& context, double expected) {
   return std::sqrt(context.given_boundary.area / (row_height * std::max(1.0, expected)));
 }
 
-/// Sites alone.
-/// @param affordable so many of them
+/// Lays only the sites.
+/// @param affordable largest number of sites
 Stage lay_bare(const LayoutContext& context, FittedSize& fitted, double coarsening, double expected,
                std::size_t affordable) {
   const auto time = context.timers.scope("boundary");

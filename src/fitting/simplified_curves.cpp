@@ -3,6 +3,7 @@
 
 #include "boundary/rules.hpp"
 #include "comm/agree.hpp"
+#include "comm/asleep.hpp"
 #include "core/thread_loop.hpp"
 #include "fitting/rules.hpp"
 #include "generalise/generalised_bytes.hpp"
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 namespace trime::fitting {
@@ -139,13 +141,15 @@ void share_simplified_curves(const LayoutContext& context, const sizing::SizeFie
     return;
   const bool is_root = context.comm.is_root();
   std::vector<std::byte> bytes;
-  comm::run_agreed(context.comm, [&] {
+  const std::optional<Error> error = comm::error_of([&] {
     if (!is_root)
       return;
     simplify_curves(context, asked, factor, curves);
     if (curves.found)
       bytes = generalise::to_bytes(*curves.found);
   });
+  comm::barrier_asleep(context.comm);
+  comm::agree(context.comm, error);
   bytes = context.comm.broadcast(std::move(bytes));
   comm::run_agreed(context.comm, [&] {
     if (is_root)

@@ -11,13 +11,13 @@
 namespace trime::fitting {
 namespace {
 
-// [1] While the factor changes by a smaller share, limits of the size are scaled with it and not looked for again.
+// [1] If the factor changes by a smaller share, limits of the size are scaled with it and not searched again.
 constexpr double limits_reach = 0.15;
 
-// [samples] The smallest size over the shape is looked for on a grid of so many a side.
+// [samples] Number along each side of the grid on which the smallest size over the shape is searched.
 constexpr int samples_per_side = 33;
 
-// [pieces] The size is sampled at about so many pieces of the boundary in that search.
+// [pieces] About the number of pieces of the boundary at which the size is sampled in that search.
 constexpr std::size_t most_sampled_pieces = 4096;
 
 } // namespace

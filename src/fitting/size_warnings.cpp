@@ -8,10 +8,10 @@
 namespace trime::fitting {
 namespace {
 
-// [1] A steeper size brings a warning. Triangles can follow about 0.5, see the warning.
+// [1] The program warns of a steeper size. Triangles can follow a gradient of about 0.5.
 constexpr double warned_slope = 1;
 
-// [h] A shorter chord brings a warning: triangles beside it have small angles.
+// [h] The program warns of a shorter chord, because triangles next to it have small angles.
 constexpr double warned_chord = 0.1;
 
 } // namespace

@@ -82,7 +82,7 @@ inline int perturbed_side(const Segment& s, Vec2 q) {
 inline bool crosses_way(const Segment& s, Vec2 p, Vec2 q) {
   if (p == q || perturbed_side(s, p) == perturbed_side(s, q))
     return false;
-  const auto side = [&](Vec2 end) { // of the moved way, which is that of the way on which the end moved back lies
+  const auto side = [&](Vec2 end) { // side of the moved way; the end is moved back instead of the way
     const int sign = orient2d(p, q, end);
     return sign != 0 ? sign : -side_of_move(q - p);
   };

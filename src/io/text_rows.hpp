@@ -16,7 +16,7 @@ class RunFiles;
 
 /// Rows of one array over all ranks.
 struct TextRows {
-  std::int64_t rows = 0; ///< of this rank
+  std::int64_t rows = 0; ///< rows of this rank
   /// Appends the lines of a row of this rank, if it has any. Called concurrently, and must give the same bytes at each
   /// call.
   std::function<void(std::int64_t row, std::string& text)> append;

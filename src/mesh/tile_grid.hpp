@@ -129,7 +129,7 @@ public:
   /// Returns the largest possible b of a tile.
   int most_bin_bits(LocalIndex tile) const { return std::min<int>(MeshRules::finest_bin_bits, tree_[tile].shift); }
   /// @brief Sets the b of every tile. Data indexed by bins (points, subscriptions) must be built again.
-  /// @pre the same on all ranks; each at most most_bin_bits()
+  /// @pre `bits` is the same on all ranks; each is at most most_bin_bits()
   void set_bin_bits(const std::vector<std::uint8_t>& bits);
 
   /// Convert coordinates to fixed-point positions.

@@ -104,7 +104,7 @@ void StageStars::check_periods(const Stage& stage) const {
   const double size = limit / MeshingRules::largest_circumradius;
   throw GeometryError(
       fmt::format("the triangles are too large for the periodic container: their circumradii must be below a quarter "
-                  "of the period, which takes about three edges per period; found an element size of {:.3g} in a "
+                  "of the period, which takes about three edges per period. Found an element size of {:.3g} in a "
                   "period of {:.3g}; about {} points are enough",
                   stage.typical_size, 4 * limit,
                   static_cast<GlobalId>(std::ceil(run_.given_boundary.area / (row_height * size * size)))));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the guard of the boundary consists of: a grid of square cells that lists the discs of chords that reach into
-// each of them, the same cells as plain numbers for loops that look for the clear ones themselves, and closed polygons
-// made of the segments that meet a window.
+// A grid of square cells that lists the discs of chords that reach into each of them. Loops that look for the clear
+// cells themselves get them as plain numbers. Another function closes polygons that consist of the segments that meet
+// a window.
 #pragma once
 
 #include "trime/core/types.hpp"

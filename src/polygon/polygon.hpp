@@ -42,7 +42,7 @@ struct BoundarySite {
 /// of sites and chords in a periodic container. The whole torus has no sites.
 struct BoundarySites {
   std::vector<BoundarySite> sites;
-  geometry::Periods periods{}; ///< those of the boundary
+  geometry::Periods periods{}; ///< periods of the boundary
   std::vector<LocalIndex>
       loop_start; ///< the sites of the i-th remaining loop are loop_start[i] .. loop_start[i+1]-1; length loops + 1
   LocalIndex corners = 0;

@@ -40,8 +40,8 @@ struct SweepTask {
   const geometry::Vec2* leads; ///< null, like next_leads, where sites have none: then all are zero
   const LocalIndex* rings;     ///< 8 slots each, a shorter ring is repeated in them
   const std::uint8_t* degrees;
-  const SiteClass* classes;                 ///< of owned sites
-  const std::int32_t* boundary = nullptr;   ///< of all sites, see BinnedPoints::boundary; for QualityKernel only
+  const SiteClass* classes;                 ///< class of each owned site
+  const std::int32_t* boundary = nullptr;   ///< see BinnedPoints::boundary; only for QualityKernel
   SiteClass least_class = SiteClass::local; ///< sites of a lower class are left to the caller
   std::uint8_t* flags = nullptr;            ///< SiteFlags; of use to SweepKernel only. Held sites are asleep, and those
                                             // /< of all other classes but `local` are watched

@@ -284,7 +284,8 @@ TRIME_INLINE V at_most(V v, double limit) {
   return lanes::select(v < limit, v, V{} + limit);
 }
 
-/// Does a neighbour come after the site in lexicographic order? Triangles do not count at boundary sites.
+/// Finds the lanes whose neighbour comes after the site in lexicographic order. Triangles do not count at boundary
+/// sites.
 TRIME_INLINE M comes_after(const SweepTask& task, const Group& group, const Spoke<V>& a, int slot) {
   M after = (a.x > 0.0) | ((a.x == 0.0) & (a.y > 0.0));
   if (group.bordered)

@@ -54,7 +54,7 @@ private:
   const LevelFunction& function_;
   const TraceTolerances tolerances_;
   const double resolution_;
-  std::size_t vertices_ = 0; // of all chains so far, before thinning
+  std::size_t vertices_ = 0; // number of vertices of all chains so far, before thinning
 };
 
 /// @brief Removes vertices of a closed polygon. Runs on one line become one segment each, and the rest becomes chords

@@ -13,8 +13,9 @@ void LevelFunction::build_wall(double slope, double lowest, double width) {
   steep_slope_ = 4 * (std::fabs(lowest) / width + slope);
 }
 
-/// False position, kept from creeping by halving the weight of an end that stays and by a bisection now and then; each
-/// try stays half a tolerance away from the ends, so that the bracket closes once one end is near.
+/// Searches by false position. To converge quickly, it halves the weight of an end that stays, and sometimes makes a
+/// bisection. Each try is at least half a tolerance away from the ends, so that the bracket closes once one end is
+/// near.
 Vec2 LevelFunction::crossing(Vec2 a, double value_a, Vec2 b, double value_b, double tolerance) const {
   constexpr int most_tries = 120;
   const double whole = length(b - a), small = std::max(0x1p-51, tolerance / whole);

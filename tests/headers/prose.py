@@ -25,6 +25,7 @@ AUXILIARIES = set("am is are was were be been being has have had do does did can
                   "should will would".split())
 ADVERBS = set("not also always never no only still".split())
 FRAGMENT_OPENERS = re.compile(r"^(Of|The same|As|Those|Like|Likewise|What|Whether|Which|How|Who)\b")
+HEADER_OPENERS = re.compile(r"^(of|those|the same)\b", re.IGNORECASE)
 CLAUSE_OPENERS = re.compile(r"\b(whether|what|which|how|who|that|if|where|when)\b", re.IGNORECASE)
 
 
@@ -217,3 +218,13 @@ def faults(passage):
         if is_fragment(sentence, passage.kind, index == 0):
             found.append(f"no verb: {sentence}")
     return found
+
+
+def header_faults(passage):
+    """One line for each fault that only comments of headers have: a question in place of "Returns whether ...", and a
+    comment that begins behind its noun, such as `of this rank`."""
+    if passage.kind != "comment":
+        return []
+    opener = HEADER_OPENERS.match(passage.text)
+    found = [f"begins with '{opener.group()}': name the thing first: {passage.text[:60]}"] if opener else []
+    return found + [f"asks: {sentence}" for sentence in sentences(passage.text) if sentence.endswith("?")]

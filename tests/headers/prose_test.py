@@ -17,13 +17,12 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 PAGES = sorted([*ROOT.glob("*.md"), *ROOT.glob("*/*.md"), *ROOT.glob("*/*/*.md")])
 HEADERS = sorted((ROOT / "include" / "trime").rglob("*.hpp"))
-# Files whose words and sentences must be plain. Folders of headers and messages are added as they are rewritten, such
-# as "include/trime/shape/*.hpp" or "src/app/*.cpp".
+# Files whose words and sentences must be plain.
 CHECKED = (
     "*.md", "configs/*.md", "jobs/*.md", "scripts/README.md", "scripts/packaging/*.md",
     "src/*.md", "tests/*.md",
     "scripts/**/*.py", "tests/**/*.py",
-    "include/trime/**/*.hpp", "src/app/*.cpp", "src/app/*.hpp",
+    "include/trime/**/*.hpp", "src/*/*.hpp", "src/*/*.cpp",
 )
 # Tables made from C++ by a script or by --help-config: their words are corrected there, not on the page.
 MADE_TABLES = ("src/rules.md",)
@@ -37,8 +36,10 @@ def faults_of(path):
     """Lines `file:line: fault`."""
     where = path.relative_to(ROOT) if path.is_relative_to(ROOT) else path
     passages = prose.passages(path.name, path.read_text(encoding="utf-8"))
+    fault_lists = (prose.faults, prose.header_faults) if path.suffix == ".hpp" else (prose.faults,)
     return [f"{where}:{passage.line}: {fault}" for passage in passages
-            if passage.kind != "cell" or str(where) not in MADE_TABLES for fault in prose.faults(passage)]
+            if passage.kind != "cell" or str(where) not in MADE_TABLES
+            for faults in fault_lists for fault in faults(passage)]
 
 
 def long_sentences(path):
@@ -129,6 +130,16 @@ class Reader(unittest.TestCase):
                            ("comment", "What a rank owns is sorted."), ("paragraph", "See `told by all`."),
                            ("cell", "The same"), ("message", "of one rank")):
             self.assertEqual(prose.faults(prose.Passage(1, kind, text)), [], text)
+
+    def test_finds_faults_of_headers(self):
+        for text, fault in (("of this rank", "begins with 'of'"), ("The same, by part.", "begins with 'The same'"),
+                            ("those of the rank", "begins with 'those'"), ("Is p inside? Exact.", "asks: Is p inside?")):
+            found = prose.header_faults(prose.Passage(1, "comment", text))
+            self.assertEqual(len(found), 1, f"{text}: {found}")
+            self.assertTrue(found[0].startswith(fault), found)
+        for kind, text in (("comment", "points of this rank"), ("comment", "Returns whether p lies inside."),
+                           ("message", "of what? Of it")):
+            self.assertEqual(prose.header_faults(prose.Passage(1, kind, text)), [], text)
 
 
 class Sample(unittest.TestCase):

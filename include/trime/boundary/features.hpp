@@ -84,8 +84,8 @@ struct FeatureReport {
   double lost_share = 0,
          added_share = 0;      ///< areas divided by the area of the shape, including dropped islands and lakes
   std::vector<LoopFate> loops; ///< one for each loop of the shape, in their order
-  int given_components = 0, given_holes = 0; ///< of the shape as it was given
-  int components = 0, holes = 0;             ///< of the simplified shape, which the mesh has
+  int given_components = 0, given_holes = 0; ///< number for the given shape
+  int components = 0, holes = 0;             ///< number for the simplified shape, which the mesh has
 };
 
 /// Returns one line of text for each kind of change; no lines for a boundary that was kept as it is.

@@ -49,7 +49,7 @@ struct CounterName {
 };
 CounterName name_of(Counter counter);
 bool is_peak(Counter counter);
-/// Is it one of the counters that `comm` counts?
+/// Returns whether `comm` counts this counter.
 constexpr bool is_traffic(Counter counter) {
   return counter <= Counter::neighbours;
 }

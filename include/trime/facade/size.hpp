@@ -32,7 +32,7 @@ public:
   const std::function<double(geometry::Vec2)>& function() const { return function_; }
   const std::shared_ptr<const sizing::SizeField>& field() const { return field_; }
   bool is_automatic() const { return is_automatic_; }
-  double gradation() const { return gradation_; } ///< of the automatic size
+  double gradation() const { return gradation_; } ///< gradation of the automatic size
 
 private:
   Size() = default;
@@ -50,7 +50,7 @@ Size automatic_size(double gradation);
 
 namespace sizes {
 
-/// The same size everywhere: what make_mesh takes if it gets none.
+/// A size that is the same everywhere. make_mesh uses it by default.
 inline Size uniform() {
   return uniform_size();
 }

@@ -50,7 +50,7 @@ struct Loop {
   double length() const;
   /// Returns the turn at the start of piece i, in degrees from 0 to 180.
   double turn_degrees(std::size_t i) const;
-  /// Does the loop go around the periodic container?
+  /// Returns whether the loop goes around the periodic container.
   bool winds() const { return winding != Vec2{}; }
 };
 
@@ -59,7 +59,7 @@ struct Boundary {
   std::vector<Loop> loops;
   std::vector<std::string> part_names;
   double area = 0; ///< enclosed area, arcs included
-  Periods periods; ///< of the container
+  Periods periods; ///< periods of the container
   /// True if one component reaches around the torus both ways. Then all its loops are holes, or it has no loops.
   bool covers_torus = false;
 

@@ -64,7 +64,7 @@ struct Periods {
   Vec2 nearest_image(Vec2 p, Vec2 center) const {
     return {wrap(p.x, center.x - 0.5 * x, x), wrap(p.y, center.y - 0.5 * y, y)};
   }
-  /// Are a and b images of the same point?
+  /// Returns whether a and b are images of the same point.
   bool same_point(Vec2 a, Vec2 b) const { return wrap(a) == wrap(b); }
   /// Compares the canonical images lexicographically. This order breaks all ties, and is the same for all images of a
   /// point.

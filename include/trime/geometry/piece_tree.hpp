@@ -46,7 +46,7 @@ private:
 
   Periods periods_;
   std::vector<Ends> ends_;
-  std::vector<LocalIndex> arc_of_; // of each piece: into arcs_, or -1 for a segment; empty without arcs
+  std::vector<LocalIndex> arc_of_; // by piece: index into arcs_, or -1 for a segment; empty without arcs
   std::vector<Piece> arcs_;
   std::vector<Box> boxes_; // heap order: the root is 1, the children of k are 2k and 2k+1; the runs are the leaves
 };

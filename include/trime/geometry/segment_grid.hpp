@@ -35,8 +35,8 @@ public:
   std::optional<Nearest> nearest(Vec2 p, double reach) const;
   /// Returns the nearest segment at any distance. @pre at least one segment
   Nearest nearest(Vec2 p) const;
-  /// Is p inside, by the even-odd rule? Exact, with symbolic perturbation: a point on the boundary counts as the point
-  /// moved by (epsilon^2, epsilon). O(depth + segments in one bin).
+  /// Returns whether p lies inside, by the even-odd rule. Exact, with symbolic perturbation: a point on the boundary
+  /// counts as the point moved by (epsilon^2, epsilon). O(depth + segments in one bin).
   bool inside(Vec2 p) const;
   /// Returns how many segments inside(p) examines: few, except if long slanted segments lie side by side. O(depth).
   LocalIndex looked_at_for(Vec2 p) const;
@@ -84,7 +84,8 @@ private:
     }
     /// Squared distance from p to the closed cell.
     double squared_distance(Vec2 p) const;
-    /// May a point of the closed cell lie within `margin` of the line through the segment? Never false if one does.
+    /// Returns whether a point of the closed cell may lie within `margin` of the line through the segment. Never false
+    /// if one does.
     bool may_be_near(const Segment& segment, double margin) const;
   };
   class Builder;

@@ -35,8 +35,8 @@ struct Neighbour {
 /// triangle across the border has vertices on both sides; geometry::Periods::nearest_image brings them together.
 struct LocalMesh {
   GlobalId first_point = 0;       ///< global id of local point 0
-  GlobalId total_points = 0;      ///< of all ranks
-  GlobalId total_triangles = 0;   ///< of all ranks
+  GlobalId total_points = 0;      ///< points of all ranks
+  GlobalId total_triangles = 0;   ///< triangles of all ranks
   LocalIndex owned_points = 0;    ///< local points before the first ghost
   LocalIndex owned_triangles = 0; ///< triangles before the first one of another rank
   LocalIndex owned_facets = 0;    ///< facets before the first one of another rank

@@ -30,7 +30,7 @@ public:
 
   /// Removes the temporary file that is being written, if any. Safe in a signal handler.
   void remove_temporary() const noexcept;
-  /// Is the final mesh written? Only rank 0 knows. Safe in a signal handler.
+  /// Returns whether the final mesh is written. Only rank 0 knows. Safe in a signal handler.
   bool final_mesh_written() const noexcept { return final_mesh_written_; }
 
 private:

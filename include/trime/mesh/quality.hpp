@@ -30,8 +30,8 @@ constexpr double squares_surely_below(double limit) {
   constexpr double root_3 = 1.7320508075688772, steepness = 1.3, largest_excess = 0.1;
   return (1 + std::min((limit - 1) / steepness, largest_excess)) * 2 * root_3;
 }
-/// @brief Is the aspect ratio surely below a limit? Uses squares_surely_below, without root and division; this settles
-/// most triangles of a good mesh. Never returns true if the ratio is not below the limit.
+/// @brief Returns true only if the aspect ratio is certainly below a limit. Uses squares_surely_below, without root and
+/// division; this settles most triangles of a good mesh. Never returns true if the ratio is not below the limit.
 inline bool is_surely_below(double limit, geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r) {
   const geometry::Vec2 u = q - p, v = r - p;
   const double squares = geometry::squared_length(u) + geometry::squared_length(v) + geometry::squared_length(r - q);

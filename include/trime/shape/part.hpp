@@ -31,7 +31,7 @@ struct Polygon {
   };
   geometry::SegmentGrid grid; ///< segments ring by ring, each starting where the one before it ends
   std::vector<Ring> rings;
-  std::vector<int> markers{};              ///< of each segment; empty: all are 0, which means no marker
+  std::vector<int> markers{};              ///< marker of each segment; 0 for no marker; empty if all are 0
   std::vector<std::string> marker_names{}; ///< Contour::marker_names
 };
 
@@ -77,8 +77,8 @@ public:
   /// @brief Returns the closed boundary with the interior on the left; a circle has four arcs that start at the right.
   /// Loops are in the order of the rings, with tags from 1 and `part` 0.
   std::vector<geometry::Loop> boundary() const;
-  /// @brief Is p inside? Exact for lattice points; a point on the boundary may get either answer. O(log M),
-  /// thread-safe.
+  /// @brief Returns whether p lies inside. Exact for lattice points; a point on the boundary may get either answer.
+  /// O(log M), thread-safe.
   bool inside(geometry::Vec2 p) const;
   /// Returns the distance from p to the boundary of the part. Thread-safe.
   double distance(geometry::Vec2 p) const;

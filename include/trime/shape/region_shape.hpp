@@ -24,7 +24,7 @@ inline constexpr std::string_view domain_name = "domain";
 /// A parsed expression over parts that are known by their index. Immutable.
 class Region {
 public:
-  static constexpr int max_depth = 64; ///< of nested operations
+  static constexpr int max_depth = 64; ///< largest depth of nested operations
 
   /// @brief Parses `text`; leaves refer to `part_names` by index, `domain` to the index part_names.size().
   /// @throws ConfigError with the position, or with the known names and the nearest one
@@ -96,7 +96,7 @@ public:
   const std::vector<Part>& parts() const { return parts_; }
   const Region& region() const { return region_; }
 
-  /// @brief Is p inside? Exact for lattice points; a point on the boundary may get either answer.
+  /// @brief Returns whether p lies inside. Exact for lattice points; a point on the boundary may get either answer.
   bool inside(geometry::Vec2 p) const;
   /// @brief Returns the distance to the nearest point of the boundary, to within rounding.
   double distance_to_boundary(geometry::Vec2 p) const { return tree_.distance(p); }
@@ -107,7 +107,7 @@ public:
 
 private:
   std::vector<Part> parts_;
-  std::vector<std::vector<geometry::Vec2>> shifts_; // of the images of each part
+  std::vector<std::vector<geometry::Vec2>> shifts_; // shifts of the images of each part
   Region region_;
   geometry::Domain domain_;
   geometry::PieceTree tree_;

@@ -25,7 +25,7 @@ public:
   virtual std::size_t memory_bytes() const { return 0; }
 };
 
-/// Is it a size that the mesher accepts: positive and finite?
+/// Returns whether the mesher accepts this size: it must be positive and finite.
 inline bool is_valid_size(double size) {
   return size > 0 && size <= std::numeric_limits<double>::max();
 }
