@@ -31,7 +31,7 @@ struct Generalised {
 };
 
 /// @brief Returns the boundary without vertices that are much closer together than this size, in loops that have far
-/// too many of them. Null if there are no such loops, in a periodic container, and where curves would cross. O(n log n)
+/// too many of them. Null if there are no such loops, and in a periodic container. O(n log n)
 /// @param size h
 /// @param inside lattice points that must stay inside, else it is null; those outside of the boundary are left out
 /// @throws GeometryError if a size is not positive and finite
