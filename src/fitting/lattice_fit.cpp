@@ -40,9 +40,11 @@ using sites::Stage;
 
 /// @brief Sites on the boundary at size h, or at the next larger size at which they are not more than the points asked
 /// for. Nothing if there is none, or only one that is too large for so many points.
-std::optional<Stage> lay_affordable_boundary(const LayoutContext& context, double h, double expected, Fewest& fewest) {
+/// @param fitted becomes that size, and what was made for it
+std::optional<Stage> lay_affordable_boundary(const LayoutContext& context, double h, double expected,
+                                             FittedSize& fitted, Fewest& fewest) {
   for (int round = 0; round < growth_rounds; ++round) {
-    FittedSize fitted{h};
+    fitted.factor = h;
     Stage stage = try_boundary(context, fitted, expected);
     const double held = static_cast<double>(stage.placed_first());
     if (stage.placed_first() <= *context.options.points) {
@@ -136,6 +138,11 @@ double points_of_largest(const LayoutContext& context, double most) {
   return context.given_boundary.area / (row_height * most * most) + 0.5 * context.given_boundary.length() / most;
 }
 
+/// Will the size be lowered along simplified curves, so that no lattice fits?
+bool is_of_no_use(const LayoutContext& context, const Stage& laid) {
+  return laid.curves && context.options.features.refine_narrow && needs_lowering(context, laid);
+}
+
 /// @param relative size
 std::variant<LatticeFit, TooFewPoints> fit_points(const LayoutContext& context, double relative) {
   const FitOptions& options = context.options;
@@ -146,7 +153,7 @@ std::variant<LatticeFit, TooFewPoints> fit_points(const LayoutContext& context, 
     if (options.max_size && h > *options.max_size)
       return too_few_points(context, points_of_largest(context, *options.max_size));
     Fewest fewest;
-    std::optional<Stage> stage = lay_affordable_boundary(context, h / relative, expected, fewest);
+    std::optional<Stage> stage = lay_affordable_boundary(context, h / relative, expected, fit.fitted, fewest);
     if (!stage && round == 0)
       return too_few_points(context, fewest);
     if (!stage) { // at this spacing the lattice fits into the stage of the round before
@@ -162,6 +169,10 @@ std::variant<LatticeFit, TooFewPoints> fit_points(const LayoutContext& context, 
     }
     fit.runs = fitting_runs(context, fit.stage);
     const double spacing = fit.runs.spacing;
+    if (is_of_no_use(context, fit.stage)) {
+      fit.fitted.factor = FitRules::limits_on_ragged * spacing / relative;
+      return fit;
+    }
     const bool comparable = spacing < comparable_spacing * laid; // else so few sites are wanted that it means nothing
     if (round + 1 == boundary_rounds || !comparable || std::abs(spacing / laid - 1) < same_spacing) {
       fit.spacing = spacing;
