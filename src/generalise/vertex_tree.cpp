@@ -20,7 +20,7 @@ constexpr LocalIndex run_length = 8; // vertices
 constexpr std::size_t fan = 4;       // boxes in a box
 
 /// A triangle, counter-clockwise or without area.
-struct Corners {
+struct ClosedTriangle {
   std::array<LocalIndex, 3> vertices;
   std::array<Vec2, 3> at;
   Box box;
@@ -159,7 +159,7 @@ bool VertexTree::is_empty(std::array<LocalIndex, 3> corners) const {
   std::array<Vec2, 3> places{points_[at(corners[0])], points_[at(corners[1])], points_[at(corners[2])]};
   if (geometry::orient2d(places[0], places[1], places[2]) < 0)
     std::swap(places[0], places[1]);
-  Corners triangle{corners, places, {}};
+  ClosedTriangle triangle{corners, places, {}};
   for (const Vec2 p : places)
     triangle.box.include(p);
   return !holds_any(levels_.size() - 1, 0, triangle);
