@@ -6,6 +6,7 @@
 #include "fitting/density_integral.hpp"
 #include "fitting/layout.hpp"
 #include "fitting/rules.hpp"
+#include "fitting/simplified_curves.hpp"
 #include "placing/density_sampler.hpp"
 #include "placing/work_share.hpp"
 
@@ -142,8 +143,48 @@ double CountEstimate::crowding(double factor) const {
   return std::clamp(share * share, 1.0, most_crowding);
 }
 
-/// Simpson's rule, in steps of about the local size. Collective.
+bool CountEstimate::use_strides(double factor) {
+  if (!generalises(context_) || context_.given_boundary.periods.any())
+    return false;
+  const sizing::ScaledSize size = context_.asked_size(factor);
+  const std::optional<double> along = integrated(size), straight = strides(size);
+  return by_strides_ = along && straight && *straight < FitRules::ragged_strides * *along;
+}
+
 std::optional<double> CountEstimate::boundary_points(const sizing::SizeField& size) const {
+  return by_strides_ ? strides(size) : integrated(size);
+}
+
+/// From vertex to vertex, over those that are nearer than h. All ranks do the same. Collective.
+std::optional<double> CountEstimate::strides(const sizing::SizeField& size) const {
+  const BoundarySites& polygon = reference_.polygon;
+  const auto count_on = [&](std::size_t loop) {
+    const LocalIndex first = polygon.loop_start[loop], end = polygon.loop_start[loop + 1];
+    Vec2 from = polygon.sites[at(first)].position;
+    double h = size.size(from), count = 0;
+    for (LocalIndex k = first + 1; k <= end && count < far_too_many * points_; ++k) {
+      const Vec2 to = polygon.sites[at(k < end ? k : first)].position;
+      const double way = geometry::length(to - from);
+      if (way < h && k < end)
+        continue;
+      const double next = size.size(to);
+      count += 0.5 * way * (1 / h + 1 / next);
+      from = to;
+      h = next;
+    }
+    return count;
+  };
+  double all = 0;
+  comm::run_agreed(context_.comm, [&] {
+    for (std::size_t loop = 0; loop + 1 < polygon.loop_start.size(); ++loop)
+      if (const double count = count_on(loop); !(count < FitRules::least_sites))
+        all += count;
+  });
+  return std::isfinite(all) ? std::optional(all) : std::nullopt;
+}
+
+/// Simpson's rule, in steps of about the local size. Collective.
+std::optional<double> CountEstimate::integrated(const sizing::SizeField& size) const {
   const BoundarySites& polygon = reference_.polygon;
   const double most = far_too_many * points_;
   const auto count_on = [&](std::ptrdiff_t k, std::vector<double>& counts) {

@@ -24,18 +24,25 @@ public:
   /// @throws GeometryError, see integrate_density
   std::optional<double> points(double factor);
 
-  /// @brief Guesses by how much the factor should be larger. If many of the boundary sites are corners, the size is
-  /// lowered around many of them. Collective.
+  /// @brief Counts the boundary sites by strides of length h from now on, if these are far fewer than the length over h
+  /// at this factor: simplified curves are about as long. Collective. @return whether it does
+  bool use_strides(double factor);
+
+  /// @brief By how much the factor should rather be larger, a guess: where a good part of the boundary sites are
+  /// corners, the size is lowered around many of them. Collective.
   double crowding(double factor) const;
 
 private:
   std::optional<double> boundary_points(const sizing::SizeField& size) const;
+  std::optional<double> integrated(const sizing::SizeField& size) const;
+  std::optional<double> strides(const sizing::SizeField& size) const;
 
   const LayoutContext& context_;
   double points_, coarsening_;
-  sites::Stage reference_;      // a stage whose boundary is the polygon, without points
-  double corners_ = 0;          // number of corners of the boundary
-  std::vector<double> lengths_; // length of the curve from each vertex to its next
+  sites::Stage reference_; // the polygon as if it were a mesh boundary, without points
+  double corners_ = 0;     // of the boundary
+  bool by_strides_ = false;
+  std::vector<double> lengths_; // of the curve from each vertex to its next
 };
 
 } // namespace trime::fitting

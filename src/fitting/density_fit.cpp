@@ -53,8 +53,8 @@ using DensityResult = std::variant<SizeTrial, TooFewPoints>;
 
 class DensitySolver {
 public:
-  DensitySolver(const LayoutContext& context, double points, double coarsening)
-      : context_(context), points_(points), trials_(context, points, coarsening),
+  DensitySolver(const LayoutContext& context, const FittedSize* begin, double points, double coarsening)
+      : context_(context), begin_(begin), points_(points), trials_(context, points, coarsening),
         rough_(coarsening < FitRules::reference_coarsening ? coarsening : 2 * coarsening),
         search_((1 - FitRules::goal_below * FitRules::close_enough) * points) {}
 
@@ -64,24 +64,34 @@ public:
                                                    : *context_.options.edge_length;
     double smallest = 0;
     comm::run_agreed(context_.comm, [&] { smallest = smallest_sampled_size(context_); });
+    if (begin_)
+      trials_.begin_with(*begin_);
     if (context_.options.points)
       return for_points(uniform, smallest);
     return for_edge_length(uniform / smallest);
   }
 
 private:
-  /// @brief A factor not far from the result, without layouts. From above: large factors make few
-  /// points, so no round costs more than the last.
-  double estimated_factor(double uniform, double factor) {
+  /// @brief A factor not far from the result, without layouts. From above, since large factors make few points.
+  double first_factor(double uniform, double factor) {
     const auto time = context_.timers.scope("start");
     CountEstimate estimate(context_, points_, FitRules::reference_spacing * uniform,
                            std::fmax(rough_, FitRules::reference_coarsening));
+    factor = estimated_factor(estimate, factor, true);
+    if (estimate.use_strides(factor))
+      factor = FitRules::limits_on_ragged * estimated_factor(estimate, factor, false);
+    search_.expect(FitRules::uncrowded_power);
+    return factor;
+  }
+
+  /// Collective. @param may_crowd corners may raise the result
+  double estimated_factor(CountEstimate& estimate, double factor, bool may_crowd) {
     search_.expect(FitRules::uncrowded_power);
     for (int round = 0; round < estimate_rounds; ++round) {
       const std::optional<double> points = estimate.points(factor);
       if (!points || !(*points > 0))
         break;
-      const double guess = search_.next(factor, *points), crowding = estimate.crowding(guess);
+      const double guess = search_.next(factor, *points), crowding = may_crowd ? estimate.crowding(guess) : 1;
       const double change = std::fabs(guess / factor - 1);
       factor = guess;
       if (change < (crowding > 1 ? crowded_precision : estimate_precision)) {
@@ -89,7 +99,6 @@ private:
         break;
       }
     }
-    search_.expect(FitRules::uncrowded_power);
     return factor;
   }
 
@@ -125,7 +134,11 @@ private:
     for (int round = 0; round < approach_rounds; ++round) {
       sites::Stage laid = trials_.lay(factor);
       const bool first = trials_.limit_rounds() == 0;
-      search_.expect(crowded ? crowded_power : FitRules::uncrowded_power); // trials with other limits do not count
+      if (laid.curves) { // so many limits that a trial without all of them says nothing
+        search_.expect(crowded_power);
+        return {factor, trials_.run(factor)};
+      }
+      search_.expect(crowded ? crowded_power : FitRules::uncrowded_power); // trials with other limits tell nothing
       if (!trials_.find_limits(laid))
         return {factor, trials_.count(std::move(laid), trials_.coarsening())};
       if (first) {
@@ -173,7 +186,7 @@ private:
   /// @param smallest size for a factor of 1
   DensityResult for_points(double uniform, double smallest) {
     FactorBracket bracket(points_, smallest, context_.domain.frame().container());
-    Search found = search(approached(estimated_factor(uniform, uniform / smallest)), bracket);
+    Search found = search(approached(begin_ ? begin_->factor : first_factor(uniform, uniform / smallest)), bracket);
     if (found.accepted)
       return std::move(*found.accepted);
     if (!found.fits)
@@ -229,6 +242,7 @@ private:
   }
 
   const LayoutContext& context_;
+  const FittedSize* begin_;
   double points_;
   SizeTrials trials_;
   double
@@ -238,9 +252,9 @@ private:
 
 } // namespace
 
-DensityResult fit_density(const LayoutContext& context, double points, double coarsening) {
+DensityResult fit_density(const LayoutContext& context, const FittedSize* begin, double points, double coarsening) {
   check_edge_length(context.options);
-  return DensitySolver(context, points, coarsening).solve();
+  return DensitySolver(context, begin, points, coarsening).solve();
 }
 
 } // namespace trime::fitting

@@ -8,13 +8,15 @@
 
 namespace trime::fitting {
 
-/// @brief Finds the layout of any size field with the largest number of points that is at most `points`. It uses the
-/// integral of h^-2 over the shape outside the strip, and the actual number of boundary sites. If the options have an
-/// edge length, it finds the factor with this mean edge length. Collective. O(cells of the integral): about 10 /
-/// coarsening^2 per site and round, in 3 to 6 rounds.
-/// @param coarsening factor on the width of the cells of the integral
-/// @return TooFewPoints as in fit_lattice
-/// @throws ConfigError as in fit_lattice; GeometryError if the size field is not positive and finite
-std::variant<SizeTrial, TooFewPoints> fit_density(const LayoutContext& context, double points, double coarsening);
+/// @brief Finds the layout of any size field at the largest number of points that is not above `points`, from the
+/// integral of h^-2 over the shape outside the strip and the sites that the boundary really takes; with an edge length
+/// in the options, at the factor whose mean edge has it. Collective. O(cells of the integral), about 10 / coarsening^2
+/// a site and round, 3 to 6 rounds.
+/// @param begin a fit for about so many points, by which the search begins; null: by an estimate
+/// @param coarsening of the integral
+/// @return too few points as fit_lattice
+/// @throws ConfigError as fit_lattice; GeometryError if the size field is not positive and finite
+std::variant<SizeTrial, TooFewPoints> fit_density(const LayoutContext& context, const FittedSize* begin, double points,
+                                                  double coarsening);
 
 } // namespace trime::fitting

@@ -8,6 +8,7 @@
 #include "fitting/layout.hpp"
 #include "fitting/stage_fit.hpp"
 
+#include <optional>
 #include <span>
 #include <variant>
 
@@ -22,11 +23,13 @@ public:
   Fit(const Fit&) = delete; // stages refer to the sizes of the context
   Fit& operator=(const Fit&) = delete;
 
-  /// Finds the spacing of a lattice for a uniform size. Does not change the fit, because the stage holds the size.
-  /// Results and errors are those of fit_lattice.
-  std::variant<LatticeFit, TooFewPoints> find_lattice() const { return fit_lattice(context_); }
-  /// @brief Finds the factor and its limits for any size. @param coarsening factor on the width of the cells of the
-  /// integral Results and errors are those of fit_density; after too few points the fit is unchanged.
+  /// @brief Finds the spacing of a lattice for a uniform size. The fit stays as it was: the stage holds its own size.
+  /// If the boundary was simplified, find_density begins there.
+  /// @return as fit_lattice @throws as fit_lattice
+  std::variant<LatticeFit, TooFewPoints> find_lattice();
+  /// @brief Finds the factor and its limits for any size. @param coarsening of the integral
+  /// @return as fit_density; after too few points the fit is as it was before
+  /// @throws as fit_density
   std::variant<StageFit, TooFewPoints> find_density(double points, double coarsening);
 
   /// Returns true if the uniform size of a lattice would make bad triangles in narrow parts of the shape.
@@ -62,6 +65,7 @@ public:
 private:
   LayoutContext context_;
   FittedSize fitted_;
+  std::optional<FittedSize> of_lattice_; // with simplified curves
 };
 
 } // namespace trime::fitting

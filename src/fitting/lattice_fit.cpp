@@ -38,11 +38,13 @@ constexpr double comparable_spacing = 2;
 
 using sites::Stage;
 
-/// @brief Makes the sites on the boundary at size h, or at the next larger size at which there are at most as many as
-/// the points asked for. Returns nothing if no such size exists, or if it is too large for this number of points.
-std::optional<Stage> lay_affordable_boundary(const LayoutContext& context, double h, double expected, Fewest& fewest) {
+/// @brief Sites on the boundary at size h, or at the next larger size at which they are not more than the points asked
+/// for. Nothing if there is none, or only one that is too large for so many points.
+/// @param fitted becomes that size, and what was made for it
+std::optional<Stage> lay_affordable_boundary(const LayoutContext& context, double h, double expected,
+                                             FittedSize& fitted, Fewest& fewest) {
   for (int round = 0; round < growth_rounds; ++round) {
-    FittedSize fitted{h};
+    fitted.factor = h;
     Stage stage = try_boundary(context, fitted, expected);
     const double held = static_cast<double>(stage.placed_first());
     if (stage.placed_first() <= *context.options.points) {
@@ -137,6 +139,11 @@ double points_of_largest(const LayoutContext& context, double most) {
   return context.given_boundary.area / (row_height * most * most) + 0.5 * context.given_boundary.length() / most;
 }
 
+/// Will the size be lowered along simplified curves, so that no lattice fits?
+bool is_of_no_use(const LayoutContext& context, const Stage& laid) {
+  return laid.curves && context.options.features.refine_narrow && needs_lowering(context, laid);
+}
+
 /// @param relative size
 std::variant<LatticeFit, TooFewPoints> fit_points(const LayoutContext& context, double relative) {
   const FitOptions& options = context.options;
@@ -147,7 +154,7 @@ std::variant<LatticeFit, TooFewPoints> fit_points(const LayoutContext& context, 
     if (options.max_size && h > *options.max_size)
       return too_few_points(context, points_of_largest(context, *options.max_size));
     Fewest fewest;
-    std::optional<Stage> stage = lay_affordable_boundary(context, h / relative, expected, fewest);
+    std::optional<Stage> stage = lay_affordable_boundary(context, h / relative, expected, fit.fitted, fewest);
     if (!stage && round == 0)
       return too_few_points(context, fewest);
     if (!stage) { // at this spacing the lattice fits into the stage of the round before
@@ -163,6 +170,10 @@ std::variant<LatticeFit, TooFewPoints> fit_points(const LayoutContext& context, 
     }
     fit.runs = fitting_runs(context, fit.stage);
     const double spacing = fit.runs.spacing;
+    if (is_of_no_use(context, fit.stage)) {
+      fit.fitted.factor = FitRules::limits_on_ragged * spacing / relative;
+      return fit;
+    }
     const bool comparable = spacing < comparable_spacing * laid; // else so few sites are wanted that it means nothing
     if (round + 1 == boundary_rounds || !comparable || std::abs(spacing / laid - 1) < same_spacing) {
       fit.spacing = spacing;

@@ -12,13 +12,17 @@ struct LayoutRules {
   /// [1] Trials of the size begin with the boundary that was thinned for a size smaller than the first one by this
   /// factor. Not measured.
   static constexpr double thinned_ahead = 3;
-  /// [1] If the factor of the size changes by a smaller share, the curves are not simplified again. Not measured.
+  /// [1] Curves that were simplified for a larger factor of the size serve while that is larger by no more than this
+  /// share. Not measured.
   static constexpr double same_curves = 0.04;
-  /// [pieces] One rank simplifies boundaries with at least this number for all ranks. With fewer pieces, it takes less
-  /// than 7 MB of memory and about as long as the messages. Not measured.
-  static constexpr std::int64_t many_pieces = 16384;
-  /// [1] Simplified curves stay nearer to the shape than the certificate requires by this share, because factors of
-  /// sizes are rounded. Not measured.
+  /// [1] Curves of a smaller factor serve while that is smaller by no more than this share: they are simplified a
+  /// little less. Not measured.
+  static constexpr double finer_curves = 0.13;
+  /// [pieces] Boundaries with so many are simplified by one rank for all. With fewer that takes less than 1 MB of
+  /// memory and some hundredths of a second. Not measured.
+  static constexpr std::int64_t many_pieces = 2048;
+  /// [1] Simplified curves stay by so much nearer to the shape than the certificate wants: factors of sizes are
+  /// rounded. Not measured.
   static constexpr double distance_slack = 1e-9;
   /// [rounds] How often curves that are too far from the shape are made again with smaller sizes at these places; after
   /// that, nothing is simplified. Sizes like abs(sin(50 x)) + 1e-7 need 1 or 2 rounds. Not measured.
@@ -77,6 +81,12 @@ struct FitRules {
   static constexpr double hopelessly_many = 16;
   /// [h] Step of the integral along the boundary in an estimate.
   static constexpr double integral_step = 1;
+  /// [1] If strides of length h along the boundary are fewer than this share of its length over h, it is ragged, and
+  /// will be simplified: estimates go by the strides. Not measured.
+  static constexpr double ragged_strides = 0.7;
+  /// [1] The factor estimated by strides is raised by this, for the points that limits of the size will take. Not
+  /// measured.
+  static constexpr double limits_on_ragged = 1.3;
 };
 
 } // namespace trime::fitting

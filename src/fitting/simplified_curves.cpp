@@ -43,7 +43,8 @@ std::vector<CurveDistance> places_too_far(const Boundary& curves, const geometry
 }
 
 bool serve(const CurvesAtSize& curves, double factor) {
-  return curves.held || std::fabs(curves.factor - factor) <= LayoutRules::same_curves * factor;
+  return curves.held || (curves.factor <= (1 + LayoutRules::same_curves) * factor &&
+                         curves.factor >= (1 - LayoutRules::finer_curves) * factor);
 }
 
 } // namespace

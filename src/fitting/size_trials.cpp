@@ -35,17 +35,29 @@ void SizeTrials::hold(const FittedSize& fitted) {
 
 Stage SizeTrials::lay(double factor) {
   const bool held = fitted_.curves.held;
-  if (!held && !(std::fabs(factor - limits_factor_) < limits_reach * factor)) {
-    limits_factor_ = factor;
-    limits_.clear();
-    limit_rounds_ = 0;
-  }
+  if (!held && !(std::fabs(factor - limits_factor_) < limits_reach * factor))
+    forget_limits(factor);
   fitted_.factor = factor;
   fitted_.limits = limits_;
   if (!held)
     for (sizing::SizeLimit& limit : fitted_.limits)
       limit.size *= factor / limits_factor_;
+  Stage laid = try_boundary(context_, fitted_, points_);
+  const double curves_factor = fitted_.curves.found ? fitted_.curves.factor : 0;
+  if (held || curves_factor == limited_curves_)
+    return laid;
+  limited_curves_ = curves_factor;
+  if (limits_.empty())
+    return laid;
+  forget_limits(factor); // those of other curves would stand where these need none, and the reverse
+  fitted_.limits.clear();
   return try_boundary(context_, fitted_, points_);
+}
+
+void SizeTrials::forget_limits(double factor) {
+  limits_factor_ = factor;
+  limits_.clear();
+  limit_rounds_ = 0;
 }
 
 bool SizeTrials::find_limits(const Stage& laid) {

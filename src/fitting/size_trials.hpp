@@ -22,7 +22,8 @@ struct SizeTrial {
 };
 
 /// @brief Lays the boundary at a factor and counts the points. The limits that one trial finds, and the samples of the
-/// size, are kept for the next. All methods that lay or count are collective.
+/// size, are kept for the next, unless curves are simplified again: these find their own limits. All methods that lay
+/// or count are collective.
 class SizeTrials {
 public:
   /// @param points about the number of points that are wanted @param coarsening factor on the width of the cells of the
@@ -30,8 +31,11 @@ public:
   SizeTrials(const LayoutContext& context, double points, double coarsening)
       : context_(context), points_(points), coarsening_(coarsening) {}
 
-  /// @brief Makes boundary sites within the known limits. For a nearby factor, the limits are scaled with it; limits of
-  /// a distant factor are dropped, because they would keep corners that this one leaves out.
+  /// Takes curves that were simplified before. Local.
+  void begin_with(const FittedSize& fitted) { fitted_.curves = fitted.curves; }
+
+  /// @brief Boundary sites within the limits that are known. For a factor near by they are scaled with it; those of one
+  /// far away would keep corners that this one leaves out.
   sites::Stage lay(double factor);
   /// Looks for more limits, at most a few times. Returns true if it finds any, which later trials use. @param laid the
   /// last result of lay()
@@ -52,12 +56,15 @@ public:
   int limit_rounds() const { return limit_rounds_; }
 
 private:
+  void forget_limits(double factor);
+
   const LayoutContext& context_;
   double points_, coarsening_;
-  std::vector<sizing::SizeLimit> limits_; // limits found so far
-  double limits_factor_ = 0;              // factor for which the search for limits began
-  int limit_rounds_ = 0;                  // rounds of that search
-  FittedSize fitted_;                     // fitted size of the last layout
+  std::vector<sizing::SizeLimit> limits_; // found so far
+  double limits_factor_ = 0;              // for which the search for them began
+  int limit_rounds_ = 0;                  // of that search
+  double limited_curves_ = 0;             // factor of the simplified curves for which it began; 0: of none
+  FittedSize fitted_;                     // of the last layout
 };
 
 /// @brief Returns the smallest relative size at some places: on the boundary of the shape and on a grid over it. The

@@ -7,7 +7,6 @@
 #include "generalise/ragged_curves.hpp"
 #include "generalise/regions.hpp"
 #include "generalise/rules.hpp"
-#include "generalise/thinned_map.hpp"
 #include "generalise/vertex_moves.hpp"
 
 #include <algorithm>
@@ -197,15 +196,6 @@ bool have_same_pieces(const Boundary& a, const Boundary& b) {
   return polygon::piece_count(a) == polygon::piece_count(b) && ends(a) == ends(b);
 }
 
-/// Thins less, then not at all, while that makes curves cross.
-constexpr std::array<ThinningTrial, 4> thinning_trials{{
-    {GeneraliseRules::thinned_share, Thinning::to_the_end},
-    {GeneraliseRules::thinned_share, Thinning::once},
-    {GeneraliseRules::thinned_share * GeneraliseRules::finer_thinning, Thinning::once},
-    {GeneraliseRules::thinned_share * GeneraliseRules::finer_thinning * GeneraliseRules::finer_thinning,
-     Thinning::once},
-}};
-
 /// The result of a pass over the boundary.
 struct Passed {
   std::unique_ptr<Generalised> result; ///< null if nothing was to be done
@@ -215,18 +205,17 @@ struct Passed {
 /// Once over the boundary; null if nothing is to be done.
 Passed pass_over(const Boundary& boundary, const sizing::SizeField& size, const geometry::Lattice& lattice,
                  const Choice& choice, std::span<const Vec2> inside, Corners& corners) {
-  ThinnedMap made = thinned_map(boundary, size, lattice, inside, thinning_trials);
-  if (!made.thinned)
-    made.map.emplace(boundary, size, lattice, inside);
-  CurveMap& map = *made.map;
+  const std::unique_ptr<const Boundary> thin =
+      without_ragged_runs(boundary, size, lattice, inside, {GeneraliseRules::thinned_share, Thinning::to_the_end});
+  CurveMap map(thin ? *thin : boundary, size, lattice, inside);
   if (!map.is_valid())
     return {};
   add_nodes_to_narrow_parts(map);
   const std::vector<char> given = map.inside();
   auto result = std::make_unique<Generalised>();
   polygon::Simplification& counts = result->counts;
-  if (made.thinned)
-    counts.thinned = polygon::piece_count(boundary) - polygon::piece_count(*made.thinned);
+  if (thin)
+    counts.thinned = polygon::piece_count(boundary) - polygon::piece_count(*thin);
   std::vector<char> filled = given;
   std::optional<Regions> regions(std::in_place, map, given);
   counts.filled = fill_small_holes(map, *regions, filled);
@@ -247,7 +236,7 @@ Passed pass_over(const Boundary& boundary, const sizing::SizeField& size, const 
   moves.merge_close_corners();
   counts.largest_move = moves.largest_share();
   const bool is_as_given = labels == given && !moves.any();
-  if (is_as_given && !made.thinned)
+  if (is_as_given && !thin)
     return {};
   result->boundary = build_loops(map, labels, moves.any() ? moves.places() : MovedVertices{});
   if (result->boundary.loops.empty() || have_same_pieces(result->boundary, boundary))
@@ -288,8 +277,8 @@ std::unique_ptr<const Boundary> thinned(const Boundary& boundary, const sizing::
                                         const geometry::Lattice& lattice, std::span<const Vec2> inside) {
   if (boundary.periods.any())
     return nullptr;
-  constexpr std::array<ThinningTrial, 1> trials{{{GeneraliseRules::thinned_share, Thinning::dense}}};
-  return thinned_map(boundary, size, lattice, those_inside(boundary, size, lattice, inside), trials).thinned;
+  return without_ragged_runs(boundary, size, lattice, those_inside(boundary, size, lattice, inside),
+                             {GeneraliseRules::thinned_share, Thinning::dense});
 }
 
 std::unique_ptr<Generalised> generalise(const Boundary& boundary, const sizing::SizeField& size,
@@ -314,7 +303,8 @@ std::unique_ptr<Generalised> generalise(const Boundary& boundary, const sizing::
       corners.is_first_pass = false;
       if (!follow_with(std::move(passed.result)))
         break;
-      if (passed.only_thinned && !without_ragged_runs(result->boundary, size, GeneraliseRules::thinned_share))
+      if (passed.only_thinned &&
+          !without_ragged_runs(result->boundary, size, lattice, held, {GeneraliseRules::thinned_share}))
         break; // the next pass would see the same curves
     }
   };

@@ -33,8 +33,7 @@ struct Generalised {
 };
 
 /// @brief Returns the boundary without vertices that are much closer together than this size, in loops that have far
-/// too many of them. Returns null if there are no such loops, if the container is periodic, or if curves would cross.
-/// O(n log n)
+/// too many of them. Null if there are no such loops, and in a periodic container. O(n log n)
 /// @param size h
 /// @param inside lattice points that must stay inside, otherwise the result is null; points outside the boundary are
 /// ignored

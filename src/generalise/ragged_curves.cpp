@@ -2,6 +2,7 @@
 #include "generalise/ragged_curves.hpp"
 
 #include "generalise/rules.hpp"
+#include "generalise/vertex_tree.hpp"
 #include "polygon/chord_curve.hpp"
 #include "trime/core/types.hpp"
 
@@ -17,20 +18,27 @@ using geometry::Loop;
 using geometry::Piece;
 using geometry::Vec2;
 
+/// A loop, and for each piece the vertex of the tree where it starts.
+struct NumberedLoop {
+  Loop loop;
+  std::vector<LocalIndex> vertices;
+};
+
 /// A loop whose vertices go one after the other, those with the least turn first.
 class LoopThinner {
 public:
-  LoopThinner(const Loop& loop, const sizing::SizeField& size, double share) : loop_(loop), n_(loop.pieces.size()) {
+  LoopThinner(const NumberedLoop& numbered, const sizing::SizeField& size, double share, VertexTree& tree)
+      : numbered_(numbered), loop_(numbered.loop), n_(loop_.pieces.size()), tree_(tree) {
     turn_.resize(n_);
     close_.resize(n_);
     for (std::size_t k = 0; k < n_; ++k) {
       turn_[k] = turn_at(k);
-      close_[k] = share * sizing::checked_size(size, loop.pieces[k].start);
+      close_[k] = share * sizing::checked_size(size, vertex(k));
     }
     mark_ragged();
   }
 
-  /// True if any vertex goes.
+  /// True if any vertex goes. Those that go are removed from the tree.
   bool thin() {
     std::vector<LocalIndex> order(n_);
     std::iota(order.begin(), order.end(), LocalIndex{0});
@@ -46,25 +54,29 @@ public:
     std::size_t left = n_;
     for (const LocalIndex vertex : order)
       if (const std::size_t k = at(vertex);
-          ragged_[k] <= ragged && left > GeneraliseRules::least_vertices && may_go(k)) {
+          ragged_[k] <= ragged && left > GeneraliseRules::least_vertices && may_go(k) && has_way(k)) {
         ragged_[nearer_neighbour(k)] = stays;
         next_[at(previous_[k])] = next_[k];
         previous_[at(next_[k])] = previous_[k];
         ragged_[k] = gone;
+        tree_.remove(numbered_.vertices[k]);
         --left;
       }
     return left < n_;
   }
 
-  Loop result() const {
-    Loop thinned{{}, loop_.outer, loop_.tag, loop_.winding};
-    thinned.pieces.reserve(n_ - static_cast<std::size_t>(std::count(ragged_.begin(), ragged_.end(), gone)));
+  NumberedLoop result() const {
+    NumberedLoop thinned{{{}, loop_.outer, loop_.tag, loop_.winding}, {}};
+    const std::size_t left = n_ - static_cast<std::size_t>(std::count(ragged_.begin(), ragged_.end(), gone));
+    thinned.loop.pieces.reserve(left);
+    thinned.vertices.reserve(left);
     for (std::size_t k = 0; k < n_; ++k) {
       if (ragged_[k] == gone)
         continue;
-      thinned.pieces.push_back(loop_.pieces[k]);
+      thinned.vertices.push_back(numbered_.vertices[k]);
+      thinned.loop.pieces.push_back(loop_.pieces[k]);
       if (at(next_[k]) != (k + 1) % n_)
-        thinned.pieces.back().end = loop_.pieces[at(next_[k])].start;
+        thinned.loop.pieces.back().end = vertex(at(next_[k]));
     }
     return thinned;
   }
@@ -120,52 +132,77 @@ private:
     return turn_[k] <= turn_[nearer] && squared_length(vertex(k) - vertex(nearer)) < near * near;
   }
 
+  /// Nothing else lies where the curve would pass over.
+  bool has_way(std::size_t k) const {
+    const std::vector<LocalIndex>& vertices = numbered_.vertices;
+    return tree_.is_empty({vertices[at(previous_[k])], vertices[k], vertices[at(next_[k])]});
+  }
+
+  const NumberedLoop& numbered_;
   const Loop& loop_;
   const std::size_t n_;
+  VertexTree& tree_;
   std::vector<double> turn_, close_; // by vertex: 1 - cosine of the turn; the way on which raggedness counts
   std::vector<char> ragged_;         // by vertex
   std::vector<LocalIndex> next_, previous_;
 };
 
-/// The loop with fewer vertices; nothing if none goes.
-std::optional<Loop> thinned_once(const Loop& loop, const sizing::SizeField& size, double share) {
-  if (loop.pieces.size() <= GeneraliseRules::least_vertices)
-    return {};
-  LoopThinner thinner(loop, size, share);
-  if (!thinner.thin())
-    return {};
-  return thinner.result();
-}
+/// Thins the loops of a boundary, one after the other.
+class BoundaryThinner {
+public:
+  BoundaryThinner(const sizing::SizeField& size, Thinning thinning, VertexTree& tree)
+      : size_(size), thinning_(thinning), tree_(tree) {}
 
-/// @brief Does the same, except that a dense loop loses as many vertices as it may. Each time it loses about half of
-/// them, since each removed vertex has a neighbour that stays.
-std::optional<Loop> thinned_loop(const Loop& loop, const sizing::SizeField& size, double share, Thinning thinning) {
-  std::optional<Loop> result = thinned_once(loop, size, share);
-  const auto is_dense = [&] {
-    return static_cast<double>(result->pieces.size()) <
-           (1 - GeneraliseRules::dense_loss) * static_cast<double>(loop.pieces.size());
-  };
-  if (thinning == Thinning::once || !result)
-    return result;
-  if (!is_dense())
-    return thinning == Thinning::dense ? std::optional<Loop>() : result;
-  for (int round = 1; round < GeneraliseRules::dense_rounds; ++round) {
-    std::optional<Loop> next = thinned_once(*result, size, share);
-    if (!next)
-      break;
-    result = std::move(next);
+  /// @brief Returns the loop with fewer vertices, or nothing if none goes. A dense loop loses as many vertices as it
+  /// may: each time about half of them, since each removed vertex has a neighbour that stays.
+  std::optional<Loop> thinned(const Loop& loop, std::size_t number) {
+    const NumberedLoop given{loop, tree_.starts_of_loop(number)};
+    std::optional<NumberedLoop> result = once(given);
+    if (!result)
+      return {};
+    const bool is_dense = static_cast<double>(result->vertices.size()) <
+                          (1 - GeneraliseRules::dense_loss) * static_cast<double>(given.vertices.size());
+    if (thinning_.extent == Thinning::dense && !is_dense) {
+      for (const LocalIndex vertex : given.vertices)
+        tree_.restore(vertex);
+      return {};
+    }
+    if (thinning_.extent == Thinning::once || !is_dense)
+      return std::move(result->loop);
+    for (int round = 1; round < GeneraliseRules::dense_rounds; ++round) {
+      std::optional<NumberedLoop> next = once(*result);
+      if (!next)
+        break;
+      result = std::move(next);
+    }
+    return std::move(result->loop);
   }
-  return result;
-}
+
+private:
+  std::optional<NumberedLoop> once(const NumberedLoop& loop) {
+    if (loop.vertices.size() <= GeneraliseRules::least_vertices)
+      return {};
+    LoopThinner thinner(loop, size_, thinning_.share, tree_);
+    if (!thinner.thin())
+      return {};
+    return thinner.result();
+  }
+
+  const sizing::SizeField& size_;
+  const Thinning thinning_;
+  VertexTree& tree_;
+};
 
 } // namespace
 
 std::unique_ptr<geometry::Boundary> without_ragged_runs(const geometry::Boundary& boundary,
-                                                        const sizing::SizeField& size, double share,
-                                                        Thinning thinning) {
+                                                        const sizing::SizeField& size, const geometry::Lattice& lattice,
+                                                        std::span<const Vec2> inside, Thinning thinning) {
+  VertexTree tree(boundary, lattice, inside);
+  BoundaryThinner thinner(size, thinning, tree);
   std::vector<std::optional<Loop>> thinned;
-  for (const Loop& loop : boundary.loops)
-    thinned.push_back(thinned_loop(loop, size, share, thinning));
+  for (std::size_t k = 0; k < boundary.loops.size(); ++k)
+    thinned.push_back(thinner.thinned(boundary.loops[k], k));
   if (std::none_of(thinned.begin(), thinned.end(), [](const auto& loop) { return loop.has_value(); }))
     return nullptr;
   auto result = std::make_unique<geometry::Boundary>(

@@ -4,26 +4,33 @@
 #pragma once
 
 #include "trime/geometry/boundary.hpp"
+#include "trime/geometry/lattice.hpp"
 #include "trime/sizing/size_field.hpp"
 
 #include <memory>
+#include <span>
 
 namespace trime::generalise {
 
-/// Options of the thinning.
-enum class Thinning : char {
-  once,
-  to_the_end, ///< thins loops with far too many vertices until nothing changes, and others once
-  dense       ///< thins loops with far too many vertices until nothing changes, and others not at all
+/// How curves are thinned.
+struct Thinning {
+  double share; ///< of h: vertices nearer to each other may go
+  enum Extent : char {
+    once,
+    to_the_end, ///< loops with far too many vertices until nothing changes, and others once
+    dense       ///< the same, and others not at all
+  } extent = once;
 };
 
 /// @brief Returns the boundary with straight pieces in place of ragged runs of straight pieces, and of smooth runs with
 /// vertices that are even closer together. A run is ragged if it turns by more than GeneraliseRules::ragged_turn over a
 /// distance of `share` h. A vertex stays where it is or is removed. A removed vertex lies within about share h of a
-/// vertex that stays, or within a few times that if thinned to the end. The sharpest turns stay. Curves may cross
-/// afterwards; the caller must check. Returns null if nothing is ragged. O(pieces log(pieces))
+/// vertex that stays, or within a few times that if thinned to the end. The sharpest turns stay. If the curves were
+/// simple, they stay so, and all nodes on them and all `inside` stay on their side: a vertex stays if any of these lies
+/// in the triangle with its neighbours (vertex_tree.hpp). Null if nothing goes. O(pieces log(pieces))
+/// @param inside lattice points @throws GeometryError if a size is not positive and finite
 std::unique_ptr<geometry::Boundary> without_ragged_runs(const geometry::Boundary& boundary,
-                                                        const sizing::SizeField& size, double share,
-                                                        Thinning thinning = Thinning::once);
+                                                        const sizing::SizeField& size, const geometry::Lattice& lattice,
+                                                        std::span<const geometry::Vec2> inside, Thinning thinning);
 
 } // namespace trime::generalise

@@ -65,9 +65,7 @@ struct GeneraliseRules {
   static constexpr double ragged_turn = 0.75;
   /// [vertices] Smallest number that a loop keeps. Not measured.
   static constexpr std::size_t least_vertices = 6;
-  /// [1] If curves cross after thinning, it is tried again with a share that is multiplied by this. Not measured.
-  static constexpr double finer_thinning = 0.2;
-  /// [h] Holes with a smaller perimeter are filled, because no triangle of size h fits around them. Not measured.
+  /// [h] Holes with a smaller perimeter are filled: no triangle of size h fits around them. Not measured.
   static constexpr double smallest_hole = 3;
   /// [h] Narrow parts of the outside next to a component with a smaller perimeter are closed, so that small components
   /// join before they are dropped. Not measured.

@@ -77,7 +77,7 @@ void expect_same(const geometry::Boundary& is, const geometry::Boundary& was) {
 
 TEST(SharedCurves, ReachAllRanksAndNothingElseDoes) {
   const comm::Communicator world = comm::Communicator::world(), self = comm::Communicator::self();
-  const geometry::Boundary given = coast(fitting::LayoutRules::many_pieces);
+  const geometry::Boundary given = coast(8 * fitting::LayoutRules::many_pieces);
   const double h = 0.1;
   const sizing::UniformSize one(1);
   Setting alone(self, given, one);
