@@ -18,6 +18,7 @@ struct Expectation {
   double side;                      ///< longer side of the container
   double coarseness = 1;            ///< the h for which the boundary was simplified, over that of the mesh
   double within = 0.5;              ///< [that h] so far it may have moved
+  bool topology_changed = false;    ///< a warning has said that components or holes are not those of `shape`
   double corner_angle = 30;         ///< [degrees] where `meshed` turns by more, a vertex is expected
 };
 

@@ -17,10 +17,12 @@ namespace trime::polygon {
 struct DroppedLoops {
   std::vector<char> dropped; ///< per loop of the boundary
   int components = 0, holes = 0;
-  double area = 0;   ///< of the islands plus that of the lakes
-  double share = 0;  ///< that area over the shape's, as the shape was given
-  double change = 0; ///< of the shape's area: lakes minus islands
-  bool any() const { return components + holes > 0; }
+  double area = 0;        ///< of the islands plus that of the lakes
+  double share = 0;       ///< that area over the shape's, as the shape was given
+  int others = 0;         ///< components that are left out since one was asked for; not among `components`
+  double others_area = 0; ///< their area, without their holes
+  double change = 0;      ///< of the shape's area: lakes minus islands
+  bool any() const { return components + holes + others > 0; }
 };
 
 struct BoundarySite {

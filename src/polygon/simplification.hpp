@@ -21,6 +21,10 @@ struct Simplification {
   double cut_area = 0, closed_area = 0; ///< in the units of the coordinates, squared
   double largest_move = 0;              ///< of a vertex, over h
   double coarseness = 1;                ///< the h that this was done for, over that of the mesh
+  std::int64_t severed = 0;             ///< of what was cut or closed: parts that joined or separated what stays
+  double widest_severed = 0;            ///< [h] the least width of the widest of them
+  geometry::Vec2 severed_place;         ///< where that is
+  std::int64_t held = 0;                ///< narrow parts that stay since they join or separate; in the pass with most
 
   void add(const Simplification& other) {
     cut += other.cut;
@@ -32,6 +36,12 @@ struct Simplification {
     cut_area += other.cut_area;
     closed_area += other.closed_area;
     largest_move = std::max(largest_move, other.largest_move);
+    severed += other.severed;
+    if (other.widest_severed > widest_severed) {
+      widest_severed = other.widest_severed;
+      severed_place = other.severed_place;
+    }
+    held = std::max(held, other.held);
   }
 };
 
