@@ -217,8 +217,8 @@ constexpr Option table[] = {
      .fallback = "keep",
      .choices = "keep cut",
      .meaning = "what happens to narrow parts that join or separate what is larger than the triangles (channels, "
-                "straits, dams): `keep` lowers the size there, and moves the sides apart where they are nearer than a "
-                "quarter of h; `cut` cuts them. Ignored if keep_features = true"},
+                "straits, dams): `keep` lowers the size there, and moves the sides apart where they are nearer than "
+                "0.35 h; `cut` cuts them. Ignored if keep_features = true"},
     {.section = "meshing",
      .key = "components",
      .kind = OptionKind::text,

@@ -89,9 +89,10 @@ std::string reasons(const FeatureReport& report) {
   using State = LoopFate::State;
   std::string text;
   if (report.severed > 0)
-    text = fmt::format("{} cut, the widest {:.2g} h at ({:.6g}, {:.6g}); meshing.connect = keep holds {}",
-                       counted(report.severed, "neck was", "necks were"), report.widest_severed, report.severed_place.x,
-                       report.severed_place.y, report.severed == 1 ? "it" : "them");
+    text = fmt::format("{} cut{}, the widest {:.2g} h at ({:.6g}, {:.6g}); meshing.connect = keep holds {}",
+                       counted(report.severed, "neck was", "necks were"), report.closed > 0 ? " or closed" : "",
+                       report.widest_severed, report.severed_place.x, report.severed_place.y,
+                       report.severed == 1 ? "it" : "them");
   const std::string lost = listed({{number_of(report, State::dropped), "loop was dropped", "loops were dropped"},
                                    {number_of(report, State::filled), "hole was filled", "holes were filled"},
                                    {number_of(report, State::merged), "loop was merged", "loops were merged"}});

@@ -86,7 +86,7 @@ void take_back(const std::vector<char>& which, Plan& plan) {
 /// Takes back what joins or separates, or counts it if that may go.
 void hold_joining_parts(const CurveMap& map, const std::vector<char>& given, const Choice& choice, double share,
                         Plan& plan) {
-  Verdict verdict = judge_parts(map, given, plan.changed, !choice.cuts_thin_components, !choice.keeps_joining);
+  Verdict verdict = judge_parts(map, given, plan.changed, !choice.cuts_thin_components);
   std::vector<char> held;
   for (std::size_t k = 0; k < plan.changed.size(); ++k) {
     NarrowPart& part = plan.changed[k];
@@ -104,9 +104,9 @@ void hold_joining_parts(const CurveMap& map, const std::vector<char>& given, con
       }
     }
   }
-  plan.rest = std::move(verdict.rest);
   if (!choice.keeps_joining)
     return;
+  plan.rest = std::move(verdict.rest);
   take_back(held, plan);
   plan.witnesses = std::move(verdict.witnesses);
 }

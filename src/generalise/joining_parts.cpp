@@ -45,7 +45,7 @@ public:
     find_lids();
   }
 
-  Verdict judge(bool keeps_thin, bool takes_all) {
+  Verdict judge(bool keeps_thin) {
     choose_bodies(keeps_thin);
     join_bodies();
     for (const Piece& piece : pieces_)
@@ -55,8 +55,7 @@ public:
     for (std::size_t k = 0; k < parts_.size(); ++k)
       verdict.goes.push_back(pieces_[k].goes);
     for (LocalIndex t = 0; t < mesh_.triangle_count(); ++t)
-      if (const LocalIndex piece = piece_of_[at(t)];
-          !is_part(piece) && (takes_all ? is_cut_off(piece) : pieces_[at(piece)].goes))
+      if (const LocalIndex piece = piece_of_[at(t)]; !is_part(piece) && pieces_[at(piece)].goes)
         verdict.rest.push_back(t);
     find_witnesses(verdict.witnesses);
     return verdict;
@@ -77,11 +76,6 @@ private:
   };
 
   bool is_on_side(LocalIndex t) const { return (labels_[at(t)] != 0) == inside_; }
-  /// Is it a small body that is left alone once all parts have gone?
-  bool is_cut_off(LocalIndex piece) const {
-    const Piece& body = pieces_[at(piece)];
-    return !body.is_region && !body.stays && !body.neighbours.empty() && !is_thin_[at(component_[at(piece)])];
-  }
   bool is_part(LocalIndex piece) const { return at(piece) < parts_.size(); }
 
   void find_pieces() {
@@ -334,8 +328,8 @@ std::vector<LocalIndex> connected_sets(const Triangulation& mesh, const std::vec
 } // namespace
 
 Verdict judge_parts(const CurveMap& map, const std::vector<char>& labels, std::span<const NarrowPart> parts,
-                    bool keeps_thin, bool takes_all) {
-  return parts.empty() ? Verdict{} : Judge(map, labels, parts).judge(keeps_thin, takes_all);
+                    bool keeps_thin) {
+  return parts.empty() ? Verdict{} : Judge(map, labels, parts).judge(keeps_thin);
 }
 
 bool confirms(const CurveMap& map, const std::vector<char>& labels, const Witnesses& witnesses) {

@@ -34,9 +34,8 @@ struct Verdict {
 /// @param labels by triangle: 1 inside
 /// @param parts all on one side
 /// @param keeps_thin components without a body above the resolution stay as a whole, unless their perimeter is small
-/// @param takes_all all parts go whatever the verdict says: so does the rest
 Verdict judge_parts(const CurveMap& map, const std::vector<char>& labels, std::span<const NarrowPart> parts,
-                    bool keeps_thin, bool takes_all);
+                    bool keeps_thin);
 
 /// Are the witnesses on the same sides as before, those of one component still connected, and all regions separate?
 /// O(triangles)

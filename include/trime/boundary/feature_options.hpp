@@ -17,7 +17,7 @@ enum class NarrowOutside {
 /// What becomes of narrow parts of the shape, or of the outside, that join or separate what is larger than the
 /// triangles.
 enum class Connections {
-  keep, ///< the size is lowered there, and parts that are narrower than a quarter of it are widened
+  keep, ///< the size is lowered there, and parts that are narrower than 0.35 of it are widened
   cut,  ///< they are cut like dead ends, and a warning says so
 };
 

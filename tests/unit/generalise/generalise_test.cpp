@@ -108,7 +108,7 @@ TEST(Generalise, KeepsANeckBetweenLargeBodies) {
 }
 
 TEST(Generalise, CutsANeckToABodyBelowTheResolution) {
-  // A bar with a bulge at its end: less than two h squared.
+  // A bar with a bulge at its end: less than h squared.
   const Boundary given = boundary_of({polygon_loop({{0.1, 0.3},
                                                     {0.4, 0.3},
                                                     {0.4, 0.5},
@@ -121,7 +121,7 @@ TEST(Generalise, CutsANeckToABodyBelowTheResolution) {
                                                     {0.4, 0.51},
                                                     {0.4, 0.7},
                                                     {0.1, 0.7}})});
-  const auto made = at_size(given, 0.05);
+  const auto made = at_size(given, 0.07);
   ASSERT_TRUE(made);
   EXPECT_EQ(made->counts.held, 0);
   ASSERT_EQ(made->boundary.loops.size(), 1u) << "the bulge goes, too";
