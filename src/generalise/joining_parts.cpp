@@ -161,7 +161,7 @@ private:
       const LocalIndex root = component_[at(k)] = sets.root(k);
       perimeter[at(root)] += piece.perimeter;
       if (piece.is_region)
-        piece.stays = piece.area == INFINITY || piece.perimeter >= GeneraliseRules::small_component;
+        piece.stays = piece.area >= GeneraliseRules::least_body || piece.perimeter >= GeneraliseRules::small_component;
       else if (!is_part(k)) {
         piece.stays = piece.area >= GeneraliseRules::least_body || piece.holds_kept;
         if (LocalIndex& best = largest[at(root)]; best == Triangulation::none || piece.area > pieces_[at(best)].area)

@@ -29,8 +29,8 @@ struct Verdict {
 /// below GeneraliseRules::least_body and the user has asked for none of its vertices.
 ///
 /// A part stays if it joins two bodies that stay, and no wider way does. It also stays if two regions of the other side
-/// with a perimeter of GeneraliseRules::small_component or more would become one. Where a component has only bodies
-/// below the resolution, the largest one stays. O(triangles + parts log(parts))
+/// would become one, each with that area, or a perimeter of GeneraliseRules::small_component or more. Where a component
+/// has only bodies below the resolution, the largest one stays. O(triangles + parts log(parts))
 /// @param labels by triangle: 1 inside
 /// @param parts all on one side
 /// @param keeps_thin components without a body above the resolution stay as a whole, unless their perimeter is small
