@@ -11,6 +11,7 @@
 #include "trime/shape/region_shape.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -231,6 +232,31 @@ constexpr std::pair<const char*, sweep::Method> methods[] = {{"distmesh", sweep:
                                                              {"cvt", sweep::Method::cvd},
                                                              {"hybrid", sweep::Method::hybrid}};
 
+/// all, largest or at X Y
+void read_components(const Settings& settings, boundary::FeatureOptions& features, Diagnostics& problems) {
+  const std::string text = settings.text("meshing", "components");
+  const std::vector<std::string> words = split_words(text);
+  if (words.size() == 1 && words[0] == "largest")
+    features.components = boundary::Components::largest;
+  if (words.size() == 1 && (words[0] == "largest" || words[0] == "all"))
+    return;
+  double x = 0, y = 0;
+  const auto is_number = [](const std::string& word, double& value) {
+    const char* end = word.data() + word.size();
+    const auto read = std::from_chars(word.data(), end, value);
+    return read.ec == std::errc{} && read.ptr == end && std::fabs(value) <= largest_coordinate;
+  };
+  if (words.size() != 3 || words[0] != "at" || !is_number(words[1], x) || !is_number(words[2], y)) {
+    problems.add(settings.line("meshing", "components"),
+                 fmt::format("'components = {}' in [meshing]: expected all, largest or 'at X Y', where X and Y are the "
+                             "coordinates of a place in the component",
+                             text));
+    return;
+  }
+  features.components = boundary::Components::at;
+  features.component_place = {x, y};
+}
+
 void read_meshing(const Settings& settings, const geometry::Box& container, meshing::MeshOptions& mesh,
                   Diagnostics& problems) {
   read_resolution(settings, container, mesh, problems);
@@ -243,6 +269,10 @@ void read_meshing(const Settings& settings, const geometry::Box& container, mesh
   mesh.features.keep_all = settings.boolean("meshing", "keep_features");
   mesh.features.tolerance = settings.number("meshing", "feature_tolerance");
   mesh.features.within = settings.number("meshing", "simplify_within");
+  if (settings.text("meshing", "connect") == "cut")
+    mesh.features.connect = boundary::Connections::cut;
+  read_components(settings, mesh.features, problems);
+  mesh.features.max_loss = settings.optional_number("meshing", "max_loss");
   mesh.features.refine_narrow = settings.boolean("meshing", "refine_narrow");
   if (settings.text("meshing", "narrow") == "close")
     mesh.features.narrow = boundary::NarrowOutside::close;

@@ -212,8 +212,9 @@ const Option table[] = {
      .kind = OptionKind::boolean,
      .fallback = "false",
      .meaning = "true: the mesh keeps every corner, island, lake and narrow part, however small, and the size is "
-                "lowered around them. False: parts of the shape narrower than 0.5 h (h: the local size) are cut, "
-                "islands and lakes with a perimeter below 3 h are dropped, and corners may be left out (see "
+                "lowered around them. False: parts of the shape narrower than 0.5 h (h: the local size) are cut "
+                "unless `connect` keeps them, islands and lakes with a perimeter below 3 h are dropped, and corners "
+                "may be left out (see "
                 "`feature_tolerance`). The report counts all of these"},
     {.section = "meshing",
      .key = "simplify_within",
@@ -222,6 +223,28 @@ const Option table[] = {
      .meaning = "in units of h: how far the boundary of the mesh may lie from that of the shape where the shape is "
                 "narrower or rougher than the triangles. Smaller values simplify smaller features only, and 0 "
                 "simplifies nothing. Ignored if keep_features = true"},
+    {.section = "meshing",
+     .key = "connect",
+     .kind = OptionKind::word,
+     .fallback = "keep",
+     .choices = "keep cut",
+     .meaning = "what happens to narrow parts that join or separate what is larger than the triangles (channels, "
+                "straits, dams): `keep` lowers the size there, and moves the sides apart where they are nearer than "
+                "0.35 h; `cut` cuts them. Ignored if keep_features = true"},
+    {.section = "meshing",
+     .key = "components",
+     .kind = OptionKind::text,
+     .fallback = "all",
+     .meaning = "which components of the simplified shape are meshed: `all`; `largest`: the one with the largest area; "
+                "`at X Y`: the one that holds this place, in the coordinates of the contour files. The warning says "
+                "how many are left out"},
+    {.section = "meshing",
+     .key = "max_loss",
+     .fallback = "none",
+     .choices = "none",
+     .range = {0, 1},
+     .meaning = "largest share of the shape's area that may be lost: if more is, the file is marked as incomplete and "
+                "the exit code is 5; none: any share"},
     {.section = "meshing",
      .key = "narrow",
      .kind = OptionKind::word,

@@ -211,7 +211,8 @@ public:
         keeper_({job.comm, checkpoint_options(job), job.signals, job.timers, job.log}, job.options.checkpoint,
                 job.line.time_limit, {program_name(), job.options.resolved}),
         saved_(keeper_.find(job.line.restart)), // before directories are made
-        series_(series_options(job, input_), job.comm), points_(expected_points(job.options, boundary())) {
+        series_(series_options(job, input_.domain()), job.comm), points_(expected_points(job.options, boundary())),
+        mesh_(placed_options(job.options, input_, job.comm)) {
     check_output();
     size_ = [&] {
       const auto timing = job.timers.scope("size field");
@@ -237,8 +238,9 @@ private:
   const ShapeInput input_;
   CheckpointKeeper keeper_;
   const std::optional<meshing::SavedRun> saved_; // where the run goes on
-  formats::MeshSeries series_;
-  const double points_; // about as many as the mesh will have
+  io::MeshSeries series_;
+  const double points_;             // about as many as the mesh will have
+  const meshing::MeshOptions mesh_; // with places in the container
   BuiltSize size_;
 };
 
@@ -255,19 +257,19 @@ ExitCode MeshRun::preview() {
   check_fixed_points(*input_.shape, job_.log);
   job_.log.summary("{}", estimate(job_.options, boundary(), placement_, is_dry_run));
   check_share(points_, placement_.ranks);
-  if (!is_dry_run && !job_.options.mesh.features.keep_all) // where nothing gives way the layout may fail
-    return ExitCode::done;
   Log quiet(LogLevel::error, job_.comm.is_root()); // its warnings were printed before
-  const meshing::Mesher mesher(job_.comm, input_.domain(), *size_.field, job_.options.mesh, quiet, job_.timers);
+  const meshing::Mesher mesher(job_.comm, input_.domain(), *size_.field, mesh_, quiet, job_.timers);
   const meshing::Outlook outlook = mesher.outlook();
   if (is_dry_run)
     print_outlook(outlook, job_.log);
+  else if (const std::string warning = boundary::loss_warning(outlook.features); !warning.empty())
+    job_.log.warning("{}", warning);
   return ExitCode::done;
 }
 
 /// The mesher with what is written while it runs.
 meshing::MeshResult MeshRun::make_mesh(const Provenance& provenance) {
-  meshing::Mesher mesher(job_.comm, input_.domain(), *size_.field, job_.options.mesh, job_.log, job_.timers);
+  meshing::Mesher mesher(job_.comm, input_.domain(), *size_.field, mesh_, job_.log, job_.timers);
   mesher.on_snapshot([&](const meshing::Snapshot& snapshot) { // timed by the mesher
     series_.write_step(
         {snapshot.retriangulation, snapshot.mesh, snapshot.quality, describe_step(provenance, snapshot)});

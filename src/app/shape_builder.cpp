@@ -182,4 +182,25 @@ std::vector<geometry::FixedPoint> read_fixed_points(const RunOptions& options, c
   return points;
 }
 
+meshing::MeshOptions placed_options(const RunOptions& options, const ShapeInput& input,
+                                    const comm::Communicator& comm) {
+  meshing::MeshOptions mesh = options.mesh;
+  if (mesh.features.components != boundary::Components::at)
+    return mesh;
+  contours::Contour read; // one point, on its way to all ranks
+  read.source = "'components' in [meshing]";
+  read.crs = input.map.crs_of_files;
+  read.rings.emplace_back().points.push_back(mesh.features.component_place);
+  read.rings.back().lines.push_back(0);
+  comm::run_agreed(comm, [&] {
+    if (comm.is_root() && !options.projection.empty())
+      project_contour(read, input.map.crs);
+  });
+  read = contours::contour_of_bytes(comm.broadcast(contours::to_bytes(read)));
+  geometry::Vec2& place = mesh.features.component_place = read.rings[0].points[0];
+  if (input.normalized.size() == 1)
+    place = input.normalized[0].scale * place + input.normalized[0].shift;
+  return mesh;
+}
+
 } // namespace trime::app

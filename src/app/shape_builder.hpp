@@ -51,4 +51,9 @@ ShapeInput read_shape(const RunOptions& options, ShapeUse use, const comm::Commu
 std::vector<geometry::FixedPoint> read_fixed_points(const RunOptions& options, const ShapeInput& input,
                                                     const comm::Communicator& comm);
 
+/// @brief The options of the mesh, with the place of meshing.components moved and projected as the contours are.
+/// @throws ConfigError on all ranks together if it cannot be projected
+/// @note Collective.
+meshing::MeshOptions placed_options(const RunOptions& options, const ShapeInput& input, const comm::Communicator& comm);
+
 } // namespace trime::app

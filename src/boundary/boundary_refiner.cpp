@@ -44,13 +44,20 @@ double nearest_power_of_two(double v) {
   return std::ldexp(1.0, fraction * fraction < 0.5 ? exponent - 1 : exponent);
 }
 
+polygon::DroppedLoops drop_loops(const geometry::Boundary& boundary, const sizing::SizeField& size,
+                                 const FeatureRule& rule, std::span<const Vec2> inside) {
+  polygon::DroppedLoops dropped = drop_small_loops(boundary, size, rule.least_perimeter, inside);
+  drop_other_components(boundary, rule, dropped);
+  return dropped;
+}
+
 } // namespace
 
 BoundaryRefiner::BoundaryRefiner(const geometry::Boundary& boundary, const BoundarySizes& sizes,
                                  const geometry::Lattice& lattice, double corner_angle, std::span<const Vec2> inside,
                                  const FeatureRule& rule, std::size_t affordable)
     : boundary_(boundary), lattice_(lattice), corner_angle_(corner_angle), tolerance_{rule.tolerance}, inside_(inside),
-      inside_tree_(tree_of(inside)), dropped_(drop_small_loops(boundary, sizes.asked(), rule.least_perimeter, inside)),
+      inside_tree_(tree_of(inside)), dropped_(drop_loops(boundary, sizes.asked(), rule, inside)),
       affordable_(affordable) {
   metrics_.reserve(boundary.loops.size());
   for (std::size_t k = 0; k < boundary.loops.size(); ++k)

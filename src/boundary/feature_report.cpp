@@ -56,6 +56,8 @@ std::string simplification_line(const FeatureReport& report) {
       listed({{report.cut, "narrow part cut", "narrow parts cut"},
               {report.closed, "narrow part of the outside closed", "narrow parts of the outside closed"},
               {report.widened, "widened", "widened"},
+              {report.held, "kept since it joins or separates what is larger",
+               "kept since they join or separate what is larger"},
               {report.filled, "small hole filled", "small holes filled"},
               {report.thinned, "piece of ragged curves thinned", "pieces of ragged curves thinned"},
               {report.smoothed, "vertex of ragged curves smoothed", "vertices of ragged curves smoothed"}});
@@ -65,26 +67,51 @@ std::string simplification_line(const FeatureReport& report) {
   return line;
 }
 
-/// The beginning of a warning, such as "it has 8 pieces instead of 1 and 5 holes instead of 6, ", or nothing.
+/// How many loops came to such an end.
+GlobalId number_of(const FeatureReport& report, LoopFate::State state) {
+  return std::count_if(report.loops.begin(), report.loops.end(),
+                       [&](const LoopFate& fate) { return fate.state == state; });
+}
+
+/// Such as "1 component became 3 and 5 holes became 4", or nothing.
 std::string changed_numbers(const FeatureReport& report) {
   std::string text;
   if (report.components != report.given_components)
-    text = fmt::format("{} instead of {}", counted(report.components, "piece", "pieces"), report.given_components);
+    text = fmt::format("{} became {}", counted(report.given_components, "component", "components"), report.components);
   if (report.holes != report.given_holes)
-    text += fmt::format("{}{} instead of {}", text.empty() ? "" : " and ", counted(report.holes, "hole", "holes"),
-                        report.given_holes);
-  return text.empty() ? text : "it has " + text + ", ";
+    text += fmt::format("{}{} became {}", text.empty() ? "" : " and ", counted(report.given_holes, "hole", "holes"),
+                        report.holes);
+  return text;
+}
+
+/// Why the numbers have changed, the place and the width of the largest such part.
+std::string reasons(const FeatureReport& report) {
+  using State = LoopFate::State;
+  std::string text;
+  if (report.severed > 0)
+    text = fmt::format("{} cut{}, the widest {:.2g} h at ({:.6g}, {:.6g}); meshing.connect = keep holds {}",
+                       counted(report.severed, "neck was", "necks were"), report.closed > 0 ? " or closed" : "",
+                       report.widest_severed, report.severed_place.x, report.severed_place.y,
+                       report.severed == 1 ? "it" : "them");
+  const std::string lost = listed({{number_of(report, State::dropped), "loop was dropped", "loops were dropped"},
+                                   {number_of(report, State::filled), "hole was filled", "holes were filled"},
+                                   {number_of(report, State::merged), "loop was merged", "loops were merged"}});
+  if (report.other_components > 0)
+    text += fmt::format("{}{} left out as meshing.components asks for, {:.3g} % of the area", text.empty() ? "" : "; ",
+                        counted(report.other_components, "component was", "components were"), 100 * report.other_share);
+  if (!lost.empty())
+    text += fmt::format("{}{}, the longest {:.2g} h around at ({:.6g}, {:.6g})", text.empty() ? "" : "; ", lost,
+                        report.lost_perimeter, report.lost_place.x, report.lost_place.y);
+  if (const GlobalId split = number_of(report, State::split); split > 0)
+    text += (text.empty() ? "" : "; ") + counted(split, "loop was split", "loops were split");
+  return text;
 }
 
 /// The end of a warning, such as ", 2 of 3 loops are lost (1 dropped, 1 hole filled)", or nothing.
 std::string lost_loops(const FeatureReport& report) {
   using State = LoopFate::State;
-  const auto number_of = [&](State state) {
-    return static_cast<GlobalId>(std::count_if(report.loops.begin(), report.loops.end(),
-                                               [&](const LoopFate& fate) { return fate.state == state; }));
-  };
-  const GlobalId dropped = number_of(State::dropped), filled = number_of(State::filled),
-                 merged = number_of(State::merged), lost = dropped + filled + merged;
+  const GlobalId dropped = number_of(report, State::dropped), filled = number_of(report, State::filled),
+                 merged = number_of(report, State::merged), lost = dropped + filled + merged;
   if (lost == 0)
     return {};
   std::string text = fmt::format(", {} of {} {} lost ({})", lost, counted(std::ssize(report.loops), "loop", "loops"),
@@ -131,8 +158,15 @@ void report_losses(const geometry::Boundary& given, const geometry::Boundary& me
   report.thinned = simplified.thinned;
   report.smoothed = simplified.smoothed;
   report.coarseness = simplified.coarseness;
-  double lost = simplified.cut_area + 0.5 * (dropped.area - dropped.change);
-  double added = simplified.closed_area + 0.5 * (dropped.area + dropped.change);
+  report.severed = simplified.severed;
+  report.widest_severed = simplified.widest_severed * simplified.coarseness;
+  report.severed_place = simplified.severed_place;
+  report.held = simplified.held;
+  const double change = dropped.change + dropped.others_area; // by small loops alone
+  double lost = simplified.cut_area + 0.5 * (dropped.area - change) + dropped.others_area;
+  double added = simplified.closed_area + 0.5 * (dropped.area + change);
+  report.other_components = dropped.others;
+  report.other_share = dropped.others_area / given.area;
   const double rest = meshed.area - given.area - (added - lost); // filled holes, thinned curves, moved sides
   (rest > 0 ? added : lost) += std::fabs(rest);
   const double twice = std::fmax(0, lost - given.area); // what one pass added, and a later one took away
@@ -145,23 +179,37 @@ void report_losses(const geometry::Boundary& given, const geometry::Boundary& me
   report.lost_share = lost / given.area;
   report.added_share = added / given.area;
   report.loops = find_loop_fates(given, meshed, asked, lattice);
+  double longest = 0;
+  for (const LoopFate& fate : report.loops)
+    if (fate.is_lost() && fate.length > longest) {
+      longest = fate.length;
+      report.lost_place = fate.place;
+      report.lost_perimeter = longest / sizing::checked_size(asked, given.periods.wrap(fate.place));
+    }
+}
+
+bool changes_topology(const FeatureReport& report) {
+  return report.components != report.given_components || report.holes != report.given_holes ||
+         std::any_of(report.loops.begin(), report.loops.end(),
+                     [](const LoopFate& fate) { return fate.is_lost() || fate.state == LoopFate::State::split; });
 }
 
 std::string loss_warning(const FeatureReport& report) {
-  const std::string loops = lost_loops(report), numbers = changed_numbers(report);
-  if (loops.empty() && numbers.empty() &&
-      !(std::fmax(report.lost_share, report.added_share) > BoundaryRules::warned_loss))
+  if (!changes_topology(report) && !(std::fmax(report.lost_share, report.added_share) > BoundaryRules::warned_loss))
     return {};
-  std::string text = fmt::format("the shape is simplified at this size: {}{:.3g} % of its area is lost, {:.3g} % is "
-                                 "added{}",
-                                 numbers, 100 * report.lost_share, 100 * report.added_share, loops);
+  std::string text = changed_numbers(report);
+  if (const std::string why = reasons(report); !why.empty())
+    text += (text.empty() ? "" : ": ") + why;
+  text +=
+      fmt::format("{}he shape is simplified at this size: {:.3g} % of its area is lost, {:.3g} % is added{}",
+                  text.empty() ? "t" : ". T", 100 * report.lost_share, 100 * report.added_share, lost_loops(report));
   if (report.coarseness > BoundaryRules::told_coarseness)
     text +=
         fmt::format(". The simplification is that for triangles {:.2g} times as large: keeping more would take more "
                     "points than were asked for",
                     report.coarseness);
   text += ". More points (a smaller edge_length) keep more, and --dry-run says how many keep everything. ";
-  if (report.components > report.given_components)
+  if (report.components > report.given_components && report.severed == 0)
     text += "A smaller meshing.simplify_within keeps narrow connections. ";
   return text + "meshing.keep_features = true keeps everything, however many points that takes. The table "
                 "/trime_mpi/rings in the file says what became of each loop";

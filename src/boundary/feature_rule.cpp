@@ -3,6 +3,9 @@
 
 #include "boundary/rules.hpp"
 #include "core/angle.hpp"
+#include "trime/core/error.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -141,6 +144,108 @@ DroppedLoops drop_small_loops(const geometry::Boundary& boundary, const sizing::
   if (result.any())
     result.share = result.area / boundary.area;
   return result;
+}
+
+namespace {
+
+/// The outer loops that are left, the smallest first, and the component of each hole.
+class ComponentFinder {
+public:
+  ComponentFinder(const geometry::Boundary& boundary, const std::vector<char>& dropped)
+      : boundary_(boundary), of_loop_(boundary.loops.size(), none) {
+    for (std::size_t k = 0; k < boundary.loops.size(); ++k) {
+      areas_.push_back(enclosed_area(boundary.loops[k]));
+      if (boundary.loops[k].outer && !dropped[k])
+        outer_.push_back(k);
+    }
+    std::stable_sort(outer_.begin(), outer_.end(), [&](std::size_t a, std::size_t b) { return areas_[a] < areas_[b]; });
+    for (const std::size_t k : outer_)
+      enclosures_.emplace_back(boundary.loops[k]);
+    for (std::size_t k = 0; k < boundary.loops.size(); ++k)
+      if (dropped[k] == 0)
+        of_loop_[k] = boundary.loops[k].outer ? k : around(boundary.loops[k].pieces.front().start, -areas_[k]);
+  }
+
+  static constexpr std::size_t none = SIZE_MAX;
+  /// The outer loop of the component to which a loop belongs.
+  std::size_t component_of(std::size_t loop) const { return of_loop_[loop]; }
+
+  std::size_t largest() const {
+    std::vector<double> areas(areas_.size());
+    for (std::size_t k = 0; k < areas_.size(); ++k)
+      if (of_loop_[k] != none)
+        areas[of_loop_[k]] += areas_[k];
+    return static_cast<std::size_t>(std::max_element(areas.begin(), areas.end()) - areas.begin());
+  }
+  /// The component that holds p; none if that is outside.
+  std::size_t holding(Vec2 p) const {
+    const std::size_t outer = around(p, 0);
+    for (std::size_t k = 0; k < areas_.size(); ++k)
+      if (of_loop_[k] == outer && k != outer && Enclosure(boundary_.loops[k]).contains(p))
+        return none;
+    return outer;
+  }
+  /// The component with the vertex that is nearest to p.
+  std::size_t nearest(Vec2 p) const {
+    std::size_t found = none;
+    double least = INFINITY;
+    for (std::size_t k = 0; k < areas_.size(); ++k)
+      for (const Piece& piece : boundary_.loops[k].pieces)
+        if (const double d = squared_length(piece.start - p); of_loop_[k] != none && d < least) {
+          least = d;
+          found = of_loop_[k];
+        }
+    return found;
+  }
+
+private:
+  /// The smallest outer loop around p that encloses more than an area.
+  std::size_t around(Vec2 p, double area) const {
+    for (std::size_t k = 0; k < outer_.size(); ++k)
+      if (areas_[outer_[k]] > area && enclosures_[k].contains(p))
+        return outer_[k];
+    return none;
+  }
+
+  const geometry::Boundary& boundary_;
+  std::vector<double> areas_; // by loop; negative for holes
+  std::vector<std::size_t> outer_;
+  std::vector<Enclosure> enclosures_;
+  std::vector<std::size_t> of_loop_;
+};
+
+} // namespace
+
+void check_choice_of_component(const geometry::Boundary& boundary, const FeatureOptions& options) {
+  if (options.components == Components::all)
+    return;
+  if (boundary.periods.any())
+    throw ConfigError("meshing.components: one component can be chosen only in a container that is not periodic; "
+                      "expected all");
+  const Vec2 p = options.component_place;
+  if (options.components == Components::at &&
+      ComponentFinder(boundary, std::vector<char>(boundary.loops.size())).holding(p) == ComponentFinder::none)
+    throw GeometryError(fmt::format("meshing.components = at: the place ({:.9g}, {:.9g}) lies outside of the shape; "
+                                    "expected a place in the component that is to be meshed",
+                                    p.x, p.y));
+}
+
+void drop_other_components(const geometry::Boundary& boundary, const FeatureRule& rule, DroppedLoops& dropped) {
+  if (rule.components == Components::all || boundary.periods.any())
+    return;
+  const ComponentFinder finder(boundary, dropped.dropped);
+  std::size_t chosen = rule.components == Components::largest ? finder.largest() : finder.holding(rule.place);
+  if (chosen == ComponentFinder::none)
+    chosen = finder.nearest(rule.place);
+  for (std::size_t k = 0; k < boundary.loops.size(); ++k) {
+    if (dropped.dropped[k] || finder.component_of(k) == chosen)
+      continue;
+    const double area = enclosed_area(boundary.loops[k]);
+    dropped.dropped[k] = 1;
+    dropped.others += boundary.loops[k].outer;
+    dropped.others_area += area;
+    dropped.change -= area;
+  }
 }
 
 geometry::Boundary boundary_without(const geometry::Boundary& boundary, const DroppedLoops& dropped) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "polygon/polygon.hpp"
+#include "trime/boundary/feature_options.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/sizing/size_field.hpp"
 
@@ -16,10 +17,20 @@ namespace trime::boundary {
 struct FeatureRule {
   double tolerance = 0;
   double least_perimeter = 0;
+  Components components = Components::all;
+  geometry::Vec2 place{}; ///< for Components::at
 };
 
-/// Returns the signed area of a loop, positive if it is counter-clockwise, with exact arcs. O(pieces) @pre the loop
-/// does not wind around the container
+/// @brief Throws unless one component of the given boundary can be chosen as the options say. O(pieces)
+/// @throws GeometryError if the place lies outside of the shape, or the container is periodic
+void check_choice_of_component(const geometry::Boundary& boundary, const FeatureOptions& options);
+
+/// @brief Adds the loops of all components but the chosen one to those that are dropped. If no component holds the
+/// place, since it was cut off, the nearest is chosen. Nothing happens in a periodic container. O(pieces) for each
+/// component around a hole
+void drop_other_components(const geometry::Boundary& boundary, const FeatureRule& rule, polygon::DroppedLoops& dropped);
+
+/// Signed, counter-clockwise positive; arcs included. O(pieces) @pre the loop does not wind around the container
 double enclosed_area(const geometry::Loop& loop);
 
 /// Returns the boundary without the dropped loops. O(pieces)

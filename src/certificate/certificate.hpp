@@ -12,14 +12,14 @@ namespace trime::certificate {
 
 /// The input that the mesh must represent.
 struct Expectation {
-  const geometry::Boundary& shape; ///< the boundary as it was given
-  const geometry::Boundary&
-      meshed; ///< the boundary as it was laid out: with fixed points as corners, at the resolution of h
-  const sizing::SizeField& asked; ///< h before it was lowered, by which features of the boundary are judged
-  double side;                    ///< longer side of the container
-  double coarseness = 1;          ///< h for which the boundary was simplified, over h of the mesh
-  double within = 0.5;            ///< [that h] how far simplification may have moved the boundary
-  double corner_angle = 30;       ///< [degrees] where `meshed` turns by more, a vertex is expected
+  const geometry::Boundary& shape;  ///< as it was given
+  const geometry::Boundary& meshed; ///< as it was laid out: with fixed points as corners, at the resolution of h
+  const sizing::SizeField& asked;   ///< h before it was lowered: what the features of the boundary are judged by
+  double side;                      ///< longer side of the container
+  double coarseness = 1;            ///< the h for which the boundary was simplified, over that of the mesh
+  double within = 0.5;              ///< [that h] so far it may have moved
+  bool topology_changed = false;    ///< a warning has said that components or holes are not those of `shape`
+  double corner_angle = 30;         ///< [degrees] where `meshed` turns by more, a vertex is expected
 };
 
 /// @brief Makes the certificate. With exact integers it checks that the mesh is a manifold of positive triangles with

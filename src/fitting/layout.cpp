@@ -113,7 +113,8 @@ std::unique_ptr<BoundaryRefiner> make_refiner(const LayoutContext& context, std:
                                               const sizing::ScaledSize& asked, FittedSize& fitted, Stage& stage) {
   const bool keeps_all = context.options.features.keep_all;
   const FeatureRule rule{keeps_all ? 0 : context.options.features.tolerance,
-                         keeps_all ? 0 : BoundaryRules::least_perimeter};
+                         keeps_all ? 0 : BoundaryRules::least_perimeter, context.options.features.components,
+                         context.options.features.component_place};
   const geometry::Boundary& curves = generalised_curves(context, fitted, stage);
   const auto make = [&](const BoundarySizes& sizes) {
     return std::make_unique<BoundaryRefiner>(curves, sizes, context.lattice, context.options.features.corner_angle,

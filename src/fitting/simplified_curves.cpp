@@ -50,7 +50,8 @@ bool serve(const CurvesAtSize& curves, double factor) {
 } // namespace
 
 generalise::Choice generalise_choice(const LayoutContext& context) {
-  return {context.options.features.narrow == boundary::NarrowOutside::close, context.cuts_thin_components,
+  return {context.options.features.narrow == boundary::NarrowOutside::close,
+          context.options.features.connect == boundary::Connections::keep, context.cuts_thin_components,
           geometry::Frame(context.domain.frame().container()).inner()};
 }
 
@@ -128,6 +129,8 @@ void simplify_curves(const LayoutContext& context, const sizing::SizeField& aske
   found = brought_near(context, asked, std::move(found), curves);
   if (found && curves.thinned)
     found->counts.thinned += polygon::piece_count(given) - polygon::piece_count(*curves.thinned);
+  if (found)
+    found->counts.widest_severed *= context.options.features.within / generalise::reference_distance;
   curves.found = std::move(found);
 }
 

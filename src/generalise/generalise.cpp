@@ -2,6 +2,7 @@
 #include "generalise/generalise.hpp"
 
 #include "generalise/curve_flow.hpp"
+#include "generalise/joining_parts.hpp"
 #include "generalise/loop_builder.hpp"
 #include "generalise/narrow_parts.hpp"
 #include "generalise/ragged_curves.hpp"
@@ -22,9 +23,9 @@ namespace {
 using geometry::Boundary;
 using geometry::Vec2;
 
-double area_of(const Triangulation& mesh, const NarrowPart& part) {
+double area_of(const Triangulation& mesh, std::span<const LocalIndex> triangles) {
   double twice = 0;
-  for (const LocalIndex t : part.triangles) {
+  for (const LocalIndex t : triangles) {
     const Vec2 a = mesh.point(mesh.origin(3 * t));
     twice += cross(mesh.point(mesh.origin(3 * t + 1)) - a, mesh.point(mesh.origin(3 * t + 2)) - a);
   }
@@ -41,7 +42,7 @@ bool matters(const Triangulation& mesh, const NarrowPart& part) {
   return part.depth > GeneraliseRules::least_depth * part.size && part.depth > lid;
 }
 
-/// The tips of the corners of the shape as it was given: they stay, however sharp.
+/// What passes remember: the tips of the corners of the shape as it was given, which stay, however sharp.
 class Corners {
 public:
   /// Is it a dead end at one? In the first pass those that have straight arms are.
@@ -53,6 +54,7 @@ public:
     return is_first_pass || std::find(tips_.begin(), tips_.end(), part.tip) != tips_.end();
   }
   bool is_first_pass = true;
+  std::int64_t held = 0; ///< narrow parts that stay since they join or separate, in the pass with most
 
 private:
   std::vector<Vec2> tips_;
@@ -62,11 +64,66 @@ private:
 struct Plan {
   std::vector<NarrowPart> changed; ///< cut, or closed: they go to the other side
   std::vector<NarrowPart> apart;   ///< their sides are moved apart
+  std::vector<LocalIndex> rest;    ///< triangles that go with what is changed
+  Witnesses witnesses;             ///< of what must stay connected or separate; nothing if all may go
+  polygon::Simplification counts;  ///< of the parts that join or separate
 };
 
-void put(const NarrowPart& part, bool inside, std::vector<char>& labels) {
-  for (const LocalIndex t : part.triangles)
+void put(std::span<const LocalIndex> triangles, bool inside, std::vector<char>& labels) {
+  for (const LocalIndex t : triangles)
     labels[at(t)] = inside;
+}
+
+/// Takes parts out of what is changed, into what is moved apart.
+void take_back(const std::vector<char>& which, Plan& plan) {
+  std::vector<NarrowPart> stay;
+  for (std::size_t k = 0; k < plan.changed.size(); ++k)
+    (which[k] ? plan.apart : stay).push_back(std::move(plan.changed[k]));
+  plan.changed = std::move(stay);
+}
+
+/// Takes back what joins or separates, or counts it if that may go.
+void hold_joining_parts(const CurveMap& map, const std::vector<char>& given, const Choice& choice, double share,
+                        Plan& plan) {
+  Verdict verdict = judge_parts(map, given, plan.changed, !choice.cuts_thin_components);
+  std::vector<char> held;
+  for (std::size_t k = 0; k < plan.changed.size(); ++k) {
+    NarrowPart& part = plan.changed[k];
+    held.push_back(!verdict.goes[k]);
+    if (verdict.goes[k])
+      continue;
+    if (choice.keeps_joining) {
+      part.widened_to = std::fmin(part.widened_to, GeneraliseRules::joining_width);
+      ++plan.counts.held;
+    } else {
+      ++plan.counts.severed;
+      if (const double width = share * part.width; width > plan.counts.widest_severed) {
+        plan.counts.widest_severed = width;
+        plan.counts.severed_place = part.place;
+      }
+    }
+  }
+  if (!choice.keeps_joining)
+    return;
+  plan.rest = std::move(verdict.rest);
+  take_back(held, plan);
+  plan.witnesses = std::move(verdict.witnesses);
+}
+
+/// Cuts the dead ends that branch off from passages that stay.
+void cut_branches(const CurveMap& map, const std::vector<char>& given, double share, Corners& corners, Plan& plan) {
+  std::vector<NarrowPart> passages;
+  for (const NarrowPart& part : plan.apart)
+    if (part.lids.size() > 1)
+      passages.push_back(part);
+  std::vector<char> goes(given.size());
+  for (NarrowPart& branch : dead_ends_of(map, given, passages, share))
+    if (!branch.holds_kept && matters(map.mesh(), branch) && !corners.holds(branch)) {
+      put(branch.triangles, true, goes);
+      plan.changed.push_back(std::move(branch));
+    }
+  for (NarrowPart& part : plan.apart)
+    std::erase_if(part.triangles, [&](LocalIndex t) { return goes[at(t)] != 0; });
 }
 
 /// Plans to take narrow parts out of the shape: the parts less wide than a share of h, or than a part of that if all of
@@ -86,13 +143,17 @@ Plan plan_cuts(const CurveMap& map, const std::vector<char>& given, const Region
       if (part.holds_kept || !matters(map.mesh(), part) || corners.holds(part))
         continue;
       const bool is_thin = stays(part);
-      if (!is_thin)
-        put(part, false, labels);
       (is_thin ? plan.apart : plan.changed).push_back(std::move(part));
     }
+    hold_joining_parts(map, given, choice, share, plan);
+    for (const NarrowPart& part : plan.changed)
+      put(part.triangles, false, labels);
+    put(plan.rest, false, labels);
     if (std::find(labels.begin(), labels.end(), 1) != labels.end())
       break;
   }
+  if (choice.keeps_joining)
+    cut_branches(map, given, share, corners, plan);
   return plan;
 }
 
@@ -123,14 +184,6 @@ std::vector<char> cut_again(const CurveMap& map, const std::vector<char>& given,
   return result;
 }
 
-/// Takes parts out of what is changed, into what is moved apart.
-void take_back(const std::vector<char>& which, Plan& plan) {
-  std::vector<NarrowPart> stay;
-  for (std::size_t k = 0; k < plan.changed.size(); ++k)
-    (which[k] ? plan.apart : stay).push_back(std::move(plan.changed[k]));
-  plan.changed = std::move(stay);
-}
-
 /// Plans to fill narrow parts of the outside. Those that would be narrow parts of the shape then are moved apart.
 Plan plan_closings(const CurveMap& map, const std::vector<char>& given, const Regions& regions, const Choice& choice,
                    Corners& corners) {
@@ -141,15 +194,18 @@ Plan plan_closings(const CurveMap& map, const std::vector<char>& given, const Re
     const bool stays = !choice.closes_narrow && !is_beside_small(map, regions, given, part);
     (stays ? plan.apart : plan.changed).push_back(std::move(part));
   }
+  hold_joining_parts(map, given, choice, GeneraliseRules::narrow_outside, plan);
   for (int round = 0; round <= GeneraliseRules::opening_rounds && !plan.changed.empty(); ++round) {
     std::vector<char> labels = given;
     for (const NarrowPart& part : plan.changed)
-      put(part, true, labels);
+      put(part.triangles, true, labels);
+    put(plan.rest, true, labels);
     std::vector<char> open = cut_again(map, given, labels, plan.changed);
     if (std::find(open.begin(), open.end(), 1) == open.end())
       break;
     if (round == GeneraliseRules::opening_rounds)
       open.assign(plan.changed.size(), 1);
+    plan.rest.clear();
     take_back(open, plan);
   }
   return plan;
@@ -163,7 +219,9 @@ std::vector<char> follow(const CurveMap& map, const std::vector<char>& given, Pl
   for (;;) {
     std::vector<char> labels = given;
     for (const NarrowPart& part : plan.changed)
-      put(part, !part.inside, labels);
+      put(part.triangles, !part.inside, labels);
+    for (const LocalIndex t : plan.rest)
+      labels[at(t)] = !given[at(t)];
     if (!separate_touching_loops(map, given, labels))
       return {};
     std::vector<char> back;
@@ -176,11 +234,39 @@ std::vector<char> follow(const CurveMap& map, const std::vector<char>& given, Pl
   }
 }
 
-void count(const Triangulation& mesh, const Plan& plan, polygon::Simplification& counts) {
+/// The labels after the plan. Takes back what would separate or join the witnesses after all, since loops touch: first
+/// passages, then all parts.
+std::vector<char> follow_connected(const CurveMap& map, const std::vector<char>& given, Plan& plan) {
+  const auto back_if = [&](const auto& is_one) {
+    std::vector<char> back;
+    for (NarrowPart& part : plan.changed) {
+      back.push_back(is_one(part));
+      if (back.back())
+        part.widened_to = std::fmin(part.widened_to, GeneraliseRules::joining_width);
+    }
+    take_back(back, plan);
+    plan.rest.clear();
+    return follow(map, given, plan);
+  };
+  const auto is_good = [&](const std::vector<char>& labels) {
+    return labels.empty() || confirms(map, labels, plan.witnesses);
+  };
+  std::vector<char> labels = follow(map, given, plan);
+  if (!is_good(labels))
+    labels = back_if([](const NarrowPart& part) { return part.lids.size() != 1; });
+  if (!is_good(labels))
+    labels = back_if([](const NarrowPart&) { return true; });
+  return labels;
+}
+
+void count(const CurveMap& map, const std::vector<char>& given, const Plan& plan, polygon::Simplification& counts) {
+  counts.add(plan.counts);
   for (const NarrowPart& part : plan.changed) {
     ++(part.inside ? counts.cut : counts.closed);
-    (part.inside ? counts.cut_area : counts.closed_area) += area_of(mesh, part);
+    (part.inside ? counts.cut_area : counts.closed_area) += area_of(map.mesh(), part.triangles);
   }
+  for (const LocalIndex t : plan.rest)
+    (given[at(t)] ? counts.cut_area : counts.closed_area) += area_of(map.mesh(), std::span(&t, 1));
 }
 
 /// Do the boundaries have the same pieces, in whatever order?
@@ -226,11 +312,16 @@ Passed pass_over(const Boundary& boundary, const sizing::SizeField& size, const 
     Plan more = plan_closings(map, filled, *regions, choice, corners);
     plan.changed = std::move(more.changed);
     std::move(more.apart.begin(), more.apart.end(), std::back_inserter(plan.apart));
+    plan.rest = std::move(more.rest);
+    plan.witnesses = std::move(more.witnesses);
+    more.counts.add(plan.counts);
+    plan.counts = more.counts;
   }
-  const std::vector<char> labels = follow(map, filled, plan);
+  corners.held = std::max(corners.held, plan.counts.held);
+  const std::vector<char> labels = follow_connected(map, filled, plan);
   if (labels.empty())
     return {};
-  count(map.mesh(), plan, counts);
+  count(map, filled, plan, counts);
   VertexMoves moves(map, labels, lattice, choice.bounds);
   counts.widened = moves.widen(std::move(plan.apart));
   moves.merge_close_corners();
@@ -311,6 +402,8 @@ std::unique_ptr<Generalised> generalise(const Boundary& boundary, const sizing::
   pass(GeneraliseRules::most_passes);
   if (follow_with(smoothed(result ? result->boundary : boundary, size, lattice, held)))
     pass(GeneraliseRules::late_passes);
+  if (result)
+    result->counts.held = corners.held;
   return result;
 }
 

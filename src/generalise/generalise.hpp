@@ -20,11 +20,11 @@ inline constexpr double reference_distance = 0.5;
 
 /// Options of the simplification.
 struct Choice {
-  bool closes_narrow = false; ///< if true, slits, cracks and walls are closed; otherwise their sides are moved apart
-  /// If true, components that are narrow everywhere are cut to pieces; otherwise they are widened.
-  bool cuts_thin_components = false;
-  /// No vertex is moved out of this box, whose corners are lattice points.
-  geometry::Box bounds = {{-INFINITY, -INFINITY}, {INFINITY, INFINITY}};
+  bool closes_narrow = false;        ///< slits, cracks and walls are closed; else their sides are moved apart
+  bool keeps_joining = true;         ///< what is connected stays connected, and what is separate stays separate
+  bool cuts_thin_components = false; ///< components that are narrow all over are cut to pieces, not widened
+  geometry::Box bounds = {{-INFINITY, -INFINITY},
+                          {INFINITY, INFINITY}}; ///< lattice points; no vertex is moved out of it
 };
 
 struct Generalised {
@@ -45,11 +45,13 @@ std::unique_ptr<const geometry::Boundary> thinned(const geometry::Boundary& boun
 /// @brief Returns the boundary without narrow parts for elements of this size; null if it has no narrow parts.
 ///
 /// The curves are the constraints of a Delaunay triangulation of their nodes. Parts whose triangles are all narrow are
-/// dead ends (spits, inlets), passages (necks, straits, walls) or whole components and holes. Narrow parts of the shape
-/// are cut off where they become wide enough; components that are narrow everywhere are widened. Narrow parts of the
-/// outside are closed, or their sides are moved apart. Triangles that keep their orientation prove that curves do not
-/// cross. Then ragged runs are smoothed, see curve_flow.hpp, and a triangulation of the result proves the same.
-/// Periodic boundaries are returned unchanged. Deterministic, uses one thread. O(n log n) for n pieces.
+/// dead ends (spits, inlets), passages (necks, straits, walls) or whole components and holes. Those of the shape are
+/// cut where they become wide enough, unless they join or separate what is larger than the resolution (see
+/// judge_parts): then they are widened as far as the size can be lowered to them. Components that are narrow all over
+/// are widened. Those of the outside are kept, and their sides moved apart, or closed. Triangles that keep their
+/// orientation prove that curves do not cross. Then ragged runs are smoothed, see curve_flow.hpp, and a triangulation
+/// of the result proves the same. Periodic boundaries come back as they are. Deterministic, one thread. O(n log n) for
+/// n pieces.
 /// @param size h
 /// @param inside lattice points that must stay inside: a narrow part with such a point is not cut, and no curve moves
 /// over one. Points outside the given boundary are ignored.

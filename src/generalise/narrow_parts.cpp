@@ -64,7 +64,19 @@ public:
     return parts;
   }
 
+  std::vector<NarrowPart> twigs_of(const NarrowPart& part) {
+    ways_.resize(labels_.size());
+    peel(part);
+    std::vector<NarrowPart> twigs;
+    for (const LocalIndex t : part.triangles)
+      if (ways_[at(t)] == peeled)
+        twigs.push_back(collect_twig(t));
+    return twigs;
+  }
+
 private:
+  static constexpr int peeled = -1, collected = -2;
+
   /// Does the side end there? Not where a hole was filled.
   bool is_wall(HalfEdge e) const {
     const HalfEdge f = mesh_.twin(e);
@@ -93,22 +105,38 @@ private:
     return open > 0;
   }
 
-  NarrowPart collect(LocalIndex first) {
+  NarrowPart empty_part(LocalIndex first) const {
     NarrowPart part;
     part.inside = inside_;
+    part.widened_to = inside_ ? GeneraliseRules::narrow_inside : GeneraliseRules::narrow_outside;
     part.triangles.push_back(first);
     part.size = part.width = INFINITY;
+    return part;
+  }
+
+  /// Takes a half-edge of one of its triangles into account.
+  void measure(HalfEdge e, NarrowPart& part) const {
+    part.size = std::fmin(part.size, map_.size(mesh_.origin(e)));
+    part.holds_kept |= map_.is_kept(mesh_.origin(e));
+    if (is_wall(e))
+      return;
+    const Vec2 a = mesh_.point(mesh_.origin(e)), b = mesh_.point(mesh_.target(e));
+    const double size = std::fmin(map_.size(mesh_.origin(e)), map_.size(mesh_.target(e)));
+    if (const double width = length(b - a) / (share_ * size); width < part.width) {
+      part.width = width;
+      part.place = 0.5 * (a + b);
+    }
+  }
+
+  NarrowPart collect(LocalIndex first) {
+    NarrowPart part = empty_part(first);
     seen_[at(first)] = 1;
     for (std::size_t k = 0; k < part.triangles.size(); ++k) {
       const LocalIndex t = part.triangles[k];
       for (HalfEdge e = 3 * t; e < 3 * t + 3; ++e) {
-        part.size = std::fmin(part.size, map_.size(mesh_.origin(e)));
-        part.holds_kept |= map_.is_kept(mesh_.origin(e));
+        measure(e, part);
         if (is_wall(e))
           continue;
-        part.width =
-            std::fmin(part.width, length(mesh_.point(mesh_.target(e)) - mesh_.point(mesh_.origin(e))) /
-                                      (share_ * std::fmin(map_.size(mesh_.origin(e)), map_.size(mesh_.target(e)))));
         const LocalIndex there = Triangulation::triangle(mesh_.twin(e));
         if (!narrow_[at(there)])
           part.lids.push_back(e);
@@ -121,6 +149,53 @@ private:
     if (part.lids.size() == 1 && !part.holds_kept)
       measure_dead_end(part);
     return part;
+  }
+
+  /// Marks in ways_ the triangles of a passage from which only one way leads on, again and again.
+  void peel(const NarrowPart& part) {
+    std::vector<LocalIndex> ends;
+    for (const LocalIndex t : part.triangles) {
+      ways_[at(t)] = 0;
+      for (HalfEdge e = 3 * t; e < 3 * t + 3; ++e)
+        if (!is_wall(e)) // a lid counts twice: there the passage ends
+          ways_[at(t)] += narrow_[at(Triangulation::triangle(mesh_.twin(e)))] ? 1 : 2;
+      if (ways_[at(t)] == 1)
+        ends.push_back(t);
+    }
+    while (!ends.empty()) {
+      const LocalIndex t = ends.back();
+      ends.pop_back();
+      ways_[at(t)] = peeled;
+      for (HalfEdge e = 3 * t; e < 3 * t + 3; ++e)
+        if (!is_wall(e))
+          if (const LocalIndex there = Triangulation::triangle(mesh_.twin(e));
+              ways_[at(there)] > 0 && --ways_[at(there)] == 1)
+            ends.push_back(there);
+    }
+  }
+
+  /// A dead end of peeled triangles.
+  NarrowPart collect_twig(LocalIndex first) {
+    NarrowPart twig = empty_part(first);
+    ways_[at(first)] = collected;
+    for (std::size_t k = 0; k < twig.triangles.size(); ++k) {
+      const LocalIndex t = twig.triangles[k];
+      for (HalfEdge e = 3 * t; e < 3 * t + 3; ++e) {
+        measure(e, twig);
+        if (is_wall(e))
+          continue;
+        const LocalIndex there = Triangulation::triangle(mesh_.twin(e));
+        if (ways_[at(there)] == peeled) {
+          ways_[at(there)] = collected;
+          twig.triangles.push_back(there);
+        } else if (ways_[at(there)] != collected) {
+          twig.lids.push_back(e);
+        }
+      }
+    }
+    if (twig.lids.size() == 1 && !twig.holds_kept)
+      measure_dead_end(twig);
+    return twig;
   }
 
   void measure_dead_end(NarrowPart& part) const {
@@ -177,6 +252,7 @@ private:
   const double share_;
   std::vector<char> narrow_, seen_; // by triangle
   std::vector<char> on_rim_;        // by vertex
+  std::vector<int> ways_;           // by triangle of a passage: how many lead on; or what became of it
 };
 
 } // namespace
@@ -211,6 +287,19 @@ void add_nodes_to_narrow_parts(CurveMap& map) {
 std::vector<NarrowPart> find_narrow_parts(const CurveMap& map, const std::vector<char>& labels, bool inside,
                                           double share) {
   return NarrowFinder(map, labels, inside, share).find();
+}
+
+std::vector<NarrowPart> dead_ends_of(const CurveMap& map, const std::vector<char>& labels,
+                                     std::span<const NarrowPart> passages, double share) {
+  std::vector<NarrowPart> all;
+  if (passages.empty())
+    return all;
+  NarrowFinder finder(map, labels, passages.front().inside, share);
+  for (const NarrowPart& passage : passages)
+    for (NarrowPart& twig : finder.twigs_of(passage))
+      if (twig.lids.size() == 1)
+        all.push_back(std::move(twig));
+  return all;
 }
 
 } // namespace trime::generalise

@@ -4,6 +4,7 @@
 
 #include "generalise/curve_map.hpp"
 
+#include <span>
 #include <vector>
 
 namespace trime::generalise {
@@ -18,6 +19,8 @@ struct NarrowPart {
   double width = 0;                          ///< least width, over the width below which parts are narrow
   double depth = 0;                          ///< distance from the lid to the tip, for a dead end without kept vertices
   double size = 0;                           ///< the smallest h at its nodes
+  geometry::Vec2 place;                      ///< where it is narrowest
+  double widened_to = 0;                     ///< [h] the width that it gets if its sides are moved apart
   geometry::Vec2 tip;                        ///< the node farthest from the lid
   bool is_corner = false;                    ///< true for a dead end between two straight arms
   bool holds_kept = false; ///< true if it contains a vertex that the user has asked for, on the curve or inside
@@ -31,5 +34,12 @@ void add_nodes_to_narrow_parts(CurveMap& map);
 /// @param share [h] width below which a part is narrow
 std::vector<NarrowPart> find_narrow_parts(const CurveMap& map, const std::vector<char>& labels, bool inside,
                                           double share);
+
+/// @brief The dead ends that branch off from passages: from there no way leads to a lid, but through the passage. Each
+/// has one lid, towards the rest of its passage. O(triangles)
+/// @param passages all on one side
+/// @param share as above
+std::vector<NarrowPart> dead_ends_of(const CurveMap& map, const std::vector<char>& labels,
+                                     std::span<const NarrowPart> passages, double share);
 
 } // namespace trime::generalise

@@ -68,8 +68,7 @@ VertexMoves::Sides VertexMoves::sides_of(const NarrowPart& part) const {
 
 /// How far a vertex is to move: half of what is missing, less near the end of a slit; 0 if nothing is.
 double VertexMoves::missing_way(const NarrowPart& part, const Sides& sides, LocalIndex v) const {
-  const double width = part.inside ? GeneraliseRules::narrow_inside : GeneraliseRules::narrow_outside;
-  double way = 0.5 * (width * map_.size(v) - sides.vertices.at(v).gap);
+  double way = 0.5 * (part.widened_to * map_.size(v) - sides.vertices.at(v).gap);
   if (way <= 0 || map_.is_kept(v))
     return 0;
   if (const auto end = sides.ends.nearest(mesh_.point(v), way / GeneraliseRules::slit_taper))

@@ -11,7 +11,9 @@
 namespace trime::meshing {
 
 MeshedBoundary::MeshedBoundary(const RunContext& run)
-    : fixed_(run.given_boundary, run.domain.frame().container(), run.domain.fixed_points(), run.lattice, run.log) {}
+    : fixed_(run.given_boundary, run.domain.frame().container(), run.domain.fixed_points(), run.lattice, run.log) {
+  boundary::check_choice_of_component(run.given_boundary, run.options.features);
+}
 
 void MeshedBoundary::follow(std::shared_ptr<const geometry::Boundary> curves, const polygon::DroppedLoops& dropped) {
   laid_ = std::move(curves);

@@ -251,10 +251,13 @@ MeshResult Run::extract() {
     result.checks = certificate::certify(view, numbering,
                                          {run_.given_boundary, boundary_.curves(), *stage_.asked_size, run_.side(),
                                           stage_.simplified.coarseness, run_.options.features.within,
-                                          run_.options.features.corner_angle},
+                                          boundary::changes_topology(features_), run_.options.features.corner_angle},
                                          result.mesh);
   }
   result.checks.push_back(extraction::worst_alpha_check(result.quality, run_.options.worst_alpha));
+  if (const std::optional<double>& most = run_.options.features.max_loss)
+    result.checks.push_back({"lost_area", *most, features_.lost_share, features_.lost_share <= *most,
+                             "share of the area of the given shape that is lost: at most max_loss"});
   tell_of_run(result);
   return result;
 }

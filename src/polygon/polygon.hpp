@@ -20,10 +20,16 @@ namespace trime::polygon {
 struct DroppedLoops {
   std::vector<char> dropped; ///< per loop of the boundary
   int components = 0, holes = 0;
-  double area = 0;   ///< area of the dropped islands and lakes
-  double share = 0;  ///< that area over the area of the given shape
-  double change = 0; ///< change of the area of the shape: lakes minus islands
-  bool any() const { return components + holes > 0; }
+  double area = 0;        ///< of the islands plus that of the lakes
+  std::int64_t severed = 0;             ///< of what was cut or closed: parts that joined or separated what stays
+  double widest_severed = 0;            ///< [h] the least width of the widest of them
+  geometry::Vec2 severed_place;         ///< where that is
+  std::int64_t held = 0;                ///< narrow parts that stay since they join or separate; in the pass with most
+  double share = 0;       ///< that area over the shape's, as the shape was given
+  int others = 0;         ///< components that are left out since one was asked for; not among `components`
+  double others_area = 0; ///< their area, without their holes
+  double change = 0;      ///< of the shape's area: lakes minus islands
+  bool any() const { return components + holes + others > 0; }
 };
 
 struct BoundarySite {
@@ -97,6 +103,12 @@ struct Simplification {
     cut_area += other.cut_area;
     closed_area += other.closed_area;
     largest_move = std::max(largest_move, other.largest_move);
+    severed += other.severed;
+    if (other.widest_severed > widest_severed) {
+      widest_severed = other.widest_severed;
+      severed_place = other.severed_place;
+    }
+    held = std::max(held, other.held);
   }
 };
 

@@ -182,10 +182,12 @@ void Placement::check_turns(const std::vector<Vec2>& p, const std::vector<int>& 
 void Placement::tell_touches(const std::vector<RingTouch>& touches, std::vector<std::string>& warnings) const {
   const std::size_t told = std::min(touches.size(), most_told);
   for (const RingTouch& touch : std::span(touches).first(told))
-    warnings.push_back(fmt::format("{}:{}: two rings touch at {} (the other one at line {}); they are moved apart by "
-                                   "{:.2g} there, so that no triangles meet across this point",
-                                   contour_.source, touch.line, in_file(touch.place), touch.other_line,
-                                   ShapeRules::touch_gap * frame_.step() / normalization_.scale));
+    warnings.push_back(
+        fmt::format("{}:{}: two rings touch at {} (the other one at line {}); they are moved apart by "
+                    "{:.2g} there, so that no triangles meet across this point: nothing is connected there, whatever "
+                    "meshing.connect says",
+                    contour_.source, touch.line, in_file(touch.place), touch.other_line,
+                    ShapeRules::touch_gap * frame_.step() / normalization_.scale));
   if (told < touches.size())
     warnings.push_back(fmt::format("{}: rings touch in {} more places and are moved apart there", contour_.source,
                                    touches.size() - told));

@@ -101,6 +101,7 @@ def tried(rows):
 BAD_VALUES = """
 meshing.method=fast  meshing.seed=-1  meshing.seed=1e300  meshing.max_sweeps=1e9  meshing.corner_angle=200
 meshing.corner_angle=0  meshing.feature_tolerance=0.5  meshing.simplify_within=2  meshing.initial_fraction=0
+meshing.connect=join  meshing.components=biggest  meshing.max_loss=1.1  meshing.max_loss=-0.1
 meshing.initial_fraction=1.1  meshing.narrow=open  meshing.keep_features=please  meshing.refine_narrow=0.5
 meshing.worst_alpha=0.5  meshing.stop_tolerance=0  meshing.cleanup=never
 domain.periodic_x=maybe  domain.cells_x=0  domain.cells_y=2.5  domain.x_max=left
@@ -149,6 +150,13 @@ class Rows:
         for text, expect in (("0.5 0.5\n2 2\n", r"points\.xy:2:.*outside"), ("0.5\n", r"points\.xy:1:"),
                              ("", r"points\.xy.*none"), ("0.05 0.5\n", r"points\.xy:1:.*outside the shape")):
             yield Row(GOOD, GEOMETRY, [expect], files={"points.xy": text}, extra=("meshing.fixed_points=points.xy",))
+
+    def components_that_cannot_be_chosen(self):
+        yield Row(GOOD, GEOMETRY, [r"meshing\.components = at: .*\(5, 5\).*outside of the shape"],
+                  extra=("meshing.components=at 5 5",))
+        for text in ("at 0.5", "at 0.5 high", "at 0.5 0.5 0.5", "at nan 0", "largest 3"):
+            yield Row(GOOD, USAGE, [r"'components = .*' in \[meshing\]: expected all, largest or 'at X Y'"],
+                      extra=(f"meshing.components={text}",))
 
     def unknown_section_key_and_value_all_at_once(self):
         text = GOOD.replace("method = distmesh", "method = distmash") + "sed = 3\n[siizing]\ntype = uniform\n"

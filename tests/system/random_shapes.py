@@ -148,6 +148,7 @@ class RandomConfig:
             values["edge_length"] = repr(self.scale * 10 ** rng.uniform(-1.7, -0.4))
         choices = {"initial_fraction": [0.05, 0.2, 0.7, 1], "corner_angle": [1, 20, 60, 180], "keep_features": ["true"],
                    "simplify_within": [0, 0.1, 0.25, 1], "narrow": ["close"], "refine_narrow": ["false"],
+                   "connect": ["cut"], "components": ["largest"], "max_loss": [0.5],
                    "feature_tolerance": [0, 0.02, 0.3], "seed": [0, 7, 2**53], "max_sweeps": [0, 1, 7, 40],
                    "stop_tolerance": [1e-3, 0.3], "cleanup": ["false"], "worst_alpha": [1.05, 1000]}
         values |= {key: rng.choice(some) for key, some in choices.items() if rng.random() < 0.12}

@@ -10,12 +10,30 @@
 #include <string>
 #include <vector>
 
+#include "trime/geometry/vec2.hpp"
+
+#include <optional>
+
 namespace trime::boundary {
 
 /// How the mesher treats parts of the outside that are narrower than the triangles: slits, cracks, walls.
 enum class NarrowOutside {
   keep,  ///< moves their sides apart where these are nearer than a third of the local size
   close, ///< makes them a part of the shape
+};
+
+/// What becomes of narrow parts of the shape, or of the outside, that join or separate what is larger than the
+/// triangles.
+enum class Connections {
+  keep, ///< the size is lowered there, and parts that are narrower than 0.35 of it are widened
+  cut,  ///< they are cut like dead ends, and a warning says so
+};
+
+/// Which components of the simplified shape are meshed.
+enum class Components {
+  all,
+  largest, ///< the one with the largest area
+  at,      ///< the one that holds a place
 };
 
 /// Which corners, islands, lakes and narrow parts of the shape the mesh keeps.
@@ -25,6 +43,10 @@ struct FeatureOptions {
   bool refine_narrow = true; ///< lowers a uniform size where the shape is narrower than the triangles
   double tolerance = 0.1;    ///< in local sizes: how far chords may pass from corners that they leave out
   double within = 0.5;       ///< in local sizes: how far simplified curves may lie from the given ones
+  Connections connect = Connections::keep;
+  Components components = Components::all;
+  geometry::Vec2 component_place; ///< for Components::at
+  std::optional<double> max_loss; ///< share of the area: if more is lost, the mesh counts as incomplete
   NarrowOutside narrow =
       NarrowOutside::keep; ///< narrow gaps next to components with a perimeter below 5 h are always closed
 };
@@ -76,24 +98,35 @@ struct FeatureReport {
   std::vector<SharpCorner> sharp_corners; ///< below sharp_angle, the sharpest first
   GlobalId cut = 0;                       ///< narrow parts of the shape that were cut off before the layout
   GlobalId closed = 0,
-           widened = 0;  ///< narrow parts of the outside: those that were filled, and those with sides moved apart
-  GlobalId filled = 0;   ///< holes around which no triangle fits
-  GlobalId smoothed = 0; ///< vertices of ragged curves that smoothing replaced
-  GlobalId thinned = 0;  ///< pieces of ragged curves that thinning replaced
-  double coarseness = 1; ///< the h for which the boundary was simplified, divided by the h of the mesh
+           widened = 0;      ///< narrow parts of the outside: those that were filled, and those with sides moved apart
+  GlobalId severed = 0;      ///< narrow parts that joined or separated what stays, and were cut or closed
+  double widest_severed = 0; ///< the least width of the widest of these, divided by the size
+  geometry::Vec2 severed_place;  ///< where that is
+  GlobalId held = 0;             ///< narrow parts that were kept since they join or separate what stays
+  GlobalId filled = 0;           ///< holes around which no triangle fits
+  GlobalId smoothed = 0;         ///< vertices of ragged curves that smoothing replaced
+  GlobalId thinned = 0;          ///< pieces of ragged curves that thinning replaced
+  double coarseness = 1;         ///< the h for which the boundary was simplified, divided by the h of the mesh
+  GlobalId other_components = 0; ///< left out since one component was asked for
+  double other_share = 0;        ///< their area divided by that of the shape
   double lost_share = 0,
          added_share = 0;      ///< areas divided by the area of the shape, including dropped islands and lakes
   std::vector<LoopFate> loops; ///< one for each loop of the shape, in their order
   int given_components = 0, given_holes = 0; ///< number for the given shape
   int components = 0, holes = 0;             ///< number for the simplified shape, which the mesh has
+  geometry::Vec2 lost_place;                 ///< first vertex of the longest loop that is lost
+  double lost_perimeter = 0;                 ///< its length divided by the size there
 };
 
 /// Returns one line of text for each kind of change; no lines for a boundary that was kept as it is.
 std::vector<std::string> describe(const FeatureReport& report);
 
-/// Returns a warning that says what of the shape is missing in the mesh, and what the user can do. It is empty if no
-/// loop is lost, the numbers of components and holes are those of the shape, and at most 0.1 % of the area is lost or
-/// added.
+/// Has the mesh other components or holes than the shape as it was given, or was a loop lost or split?
+bool changes_topology(const FeatureReport& report);
+
+/// Returns a warning that says what of the shape is missing in the mesh, and what the user can do. Numbers of
+/// components and holes that have changed come first, with the reason and a place. It is empty if no loop is lost or
+/// split, the numbers of components and holes are those of the shape, and at most 0.1 % of the area is lost or added.
 std::string loss_warning(const FeatureReport& report);
 
 } // namespace trime::boundary

@@ -8,6 +8,7 @@
 #include "sizing/lowered_size.hpp"
 #include "support/boundary_shapes.hpp"
 #include "support/laid_sites.hpp"
+#include "trime/core/error.hpp"
 #include "trime/shape/region_shape.hpp"
 
 #include <gtest/gtest.h>
@@ -48,6 +49,35 @@ std::vector<Vec2> ragged_circle(int n, double radius, double depth, std::uint64_
   for (int k = 0; k < n; ++k)
     points[k] = Vec2{0.5, 0.5} + (radius + depth * (random_unit(seed, RandomPurpose::test, k, 0) - 0.5)) * points[k];
   return points;
+}
+
+TEST(FeatureRule, LeavesOutAllComponentsButTheChosenOne) {
+  // A ring with an island in its hole, and a larger disc without holes.
+  const Boundary given = boundary_of({polygon_loop(regular_polygon(30, {0.3, 0.3}, 0.2), 1),
+                                      polygon_loop(regular_polygon(30, {0.3, 0.3}, 0.1, true), 2),
+                                      polygon_loop(regular_polygon(30, {0.3, 0.3}, 0.05), 3),
+                                      polygon_loop(regular_polygon(30, {0.75, 0.75}, 0.19), 4)});
+  const auto dropped_by = [&](Components components, Vec2 place = {}) {
+    DroppedLoops dropped = drop_small_loops(given, UniformSize(0.01), 3);
+    drop_other_components(given, {0, 3, components, place}, dropped);
+    EXPECT_NEAR(boundary_without(given, dropped).area, given.area - dropped.others_area, 1e-12);
+    return dropped;
+  };
+  using Flags = std::vector<char>;
+  EXPECT_EQ(dropped_by(Components::all).dropped, Flags({0, 0, 0, 0}));
+  EXPECT_EQ(dropped_by(Components::largest).dropped, Flags({1, 1, 1, 0}));
+  EXPECT_EQ(dropped_by(Components::largest).others, 2);
+  EXPECT_EQ(dropped_by(Components::at, {0.45, 0.3}).dropped, Flags({0, 0, 1, 1}));
+  EXPECT_EQ(dropped_by(Components::at, {0.3, 0.31}).dropped, Flags({1, 1, 0, 1}));
+  EXPECT_EQ(dropped_by(Components::at, {0.37, 0.3}).dropped, Flags({1, 1, 0, 1})) << "in the hole, next to the island";
+  FeatureOptions options;
+  options.components = Components::at;
+  options.component_place = {0.45, 0.3};
+  check_choice_of_component(given, options);
+  options.component_place = {0.37, 0.3};
+  EXPECT_THROW(check_choice_of_component(given, options), GeometryError);
+  options.component_place = {2, 2};
+  EXPECT_THROW(check_choice_of_component(given, options), GeometryError);
 }
 
 BoundarySites sites_of(const Boundary& boundary, double h, double share = tolerance) {

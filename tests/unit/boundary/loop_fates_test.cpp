@@ -135,7 +135,8 @@ TEST(LossWarning, CountsLoopsAndArea) {
   EXPECT_NEAR(two.added_share, 0.0001 / given.area, 1e-12);
   const std::string warning = loss_warning(two);
   for (const char* words :
-       {"it has 1 piece instead of 2 and 0 holes instead of 1, 0.16 % of its area is lost, 0.04 % is added",
+       {"2 components became 1 and 1 hole became 0: 1 loop was dropped, 1 hole was filled, the longest 1.6 h around at "
+        "(0.8, 0.8). The shape is simplified at this size: 0.16 % of its area is lost, 0.04 % is added",
         "2 of 3 loops are lost (1 dropped, 1 hole filled)", "keep_features", "edge_length"})
     EXPECT_NE(warning.find(words), std::string::npos) << warning;
 }
@@ -146,8 +147,24 @@ TEST(LossWarning, CountsPiecesEvenIfNoLoopIsLost) {
   FeatureReport report;
   report_losses(given, meshed, {}, {}, UniformSize(h), unit_lattice(), report);
   const std::string warning = loss_warning(report);
-  EXPECT_NE(warning.find("it has 2 pieces instead of 1, 0.004 % of its area is lost"), std::string::npos) << warning;
+  EXPECT_TRUE(warning.starts_with("1 component became 2: 1 loop was split. The shape is simplified")) << warning;
+  EXPECT_NE(warning.find("0.004 % of its area is lost"), std::string::npos) << warning;
   EXPECT_NE(warning.find("simplify_within"), std::string::npos) << warning;
+}
+
+TEST(LossWarning, BeginsWithTheNecksThatWereCut) {
+  const Boundary given = boundary_of({box(0.1, 0.1, 0.6, 0.6, 1)});
+  const Boundary meshed = boundary_of({box(0.1, 0.1, 0.34999, 0.6, 1), box(0.35001, 0.1, 0.6, 0.6, 2)});
+  polygon::Simplification simplified;
+  simplified.severed = 1;
+  simplified.widest_severed = 0.31;
+  simplified.severed_place = {0.35, 0.25};
+  FeatureReport report;
+  report_losses(given, meshed, simplified, {}, UniformSize(h), unit_lattice(), report);
+  const std::string warning = loss_warning(report);
+  EXPECT_TRUE(warning.starts_with("1 component became 2: 1 neck was cut, the widest 0.31 h at (0.35, 0.25); "
+                                  "meshing.connect = keep holds it"))
+      << warning;
 }
 
 } // namespace

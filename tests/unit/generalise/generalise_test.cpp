@@ -62,15 +62,125 @@ TEST(Generalise, LeavesPeriodicAndEmptyBoundariesAlone) {
   EXPECT_EQ(at_size(periodic, 0.1), nullptr);
 }
 
+Choice cutting() {
+  Choice choice;
+  choice.keeps_joining = false;
+  return choice;
+}
+
+/// Two squares joined by a bar of this width, from the right one a thin spit.
+Boundary squares_and_bar(double width) {
+  const double top = 0.5 + width;
+  return boundary_of({polygon_loop({{0.1, 0.3},
+                                    {0.4, 0.3},
+                                    {0.4, 0.5},
+                                    {0.6, 0.5},
+                                    {0.6, 0.3},
+                                    {0.8, 0.3},
+                                    {0.8, 0.45},
+                                    {0.9, 0.45},
+                                    {0.9, 0.46},
+                                    {0.8, 0.46},
+                                    {0.8, 0.7},
+                                    {0.6, 0.7},
+                                    {0.6, top},
+                                    {0.4, top},
+                                    {0.4, 0.7},
+                                    {0.1, 0.7}})});
+}
+
+TEST(Generalise, KeepsANeckBetweenLargeBodies) {
+  for (const double width : {0.018, 0.01, 0.001, 1e-6}) {
+    const double h = 0.05;
+    const Boundary given = squares_and_bar(width);
+    const auto made = at_size(given, h);
+    ASSERT_TRUE(made);
+    EXPECT_EQ(made->counts.cut, 1) << "the spit";
+    EXPECT_EQ(made->counts.severed, 0);
+    EXPECT_GE(made->counts.held, 1);
+    expect_proper(made->boundary);
+    ASSERT_EQ(made->boundary.loops.size(), 1u);
+    const geometry::SegmentGrid curves(segments_of(made->boundary));
+    const Vec2 middle{0.5, 0.5 + 0.5 * width};
+    EXPECT_TRUE(curves.inside(unit_lattice().snap(middle)));
+    EXPECT_NEAR(2 * std::sqrt(curves.nearest(middle).squared_distance),
+                std::fmax(width, GeneraliseRules::joining_width * h), 0.02 * h);
+  }
+}
+
+TEST(Generalise, CutsANeckToABodyBelowTheResolution) {
+  // A bar with a bulge at its end: less than h squared.
+  const Boundary given = boundary_of({polygon_loop({{0.1, 0.3},
+                                                    {0.4, 0.3},
+                                                    {0.4, 0.5},
+                                                    {0.6, 0.5},
+                                                    {0.6, 0.47},
+                                                    {0.66, 0.47},
+                                                    {0.66, 0.53},
+                                                    {0.6, 0.53},
+                                                    {0.6, 0.51},
+                                                    {0.4, 0.51},
+                                                    {0.4, 0.7},
+                                                    {0.1, 0.7}})});
+  const auto made = at_size(given, 0.07);
+  ASSERT_TRUE(made);
+  EXPECT_EQ(made->counts.held, 0);
+  ASSERT_EQ(made->boundary.loops.size(), 1u) << "the bulge goes, too";
+  EXPECT_NEAR(made->boundary.area, 0.3 * 0.4, 1e-4);
+  const auto finer = at_size(given, 0.03);
+  ASSERT_TRUE(finer);
+  EXPECT_EQ(finer->boundary.loops.size(), 1u);
+  EXPECT_GE(finer->counts.held, 1) << "here it is above the resolution";
+  EXPECT_GT(finer->boundary.area, 0.3 * 0.4 + 0.06 * 0.06);
+}
+
+TEST(Generalise, KeepsBothChannelsAroundALargeIslandOnly) {
+  for (const double side : {0.3, 0.02}) {
+    const double low = 0.5 - side / 2, high = 0.5 + side / 2; // a canal of that height, an island nearly as high
+    const Boundary given = boundary_of({polygon_loop({{0.05, 0.2},
+                                                      {0.3, 0.2},
+                                                      {0.3, low},
+                                                      {0.7, low},
+                                                      {0.7, 0.2},
+                                                      {0.95, 0.2},
+                                                      {0.95, 0.8},
+                                                      {0.7, 0.8},
+                                                      {0.7, high},
+                                                      {0.3, high},
+                                                      {0.3, 0.8},
+                                                      {0.05, 0.8}}),
+                                        box({0.45, low + 0.004}, {0.45 + side / 2, high - 0.003}, true, 2)});
+    const auto made = at_size(given, 0.05);
+    ASSERT_TRUE(made);
+    expect_proper(made->boundary);
+    EXPECT_EQ(made->boundary.components(), 1);
+    EXPECT_EQ(made->boundary.holes(), side == 0.3 ? 1 : 0);
+    EXPECT_EQ(made->counts.severed, 0);
+  }
+}
+
+TEST(Generalise, ClosesNoDamBetweenTwoWaters) {
+  const Boundary given = boundary_of({box({0.1, 0.1}, {0.499, 0.9}), box({0.501, 0.1}, {0.9, 0.9}, false, 2)});
+  const auto made = at_size(given, 0.05, true);
+  ASSERT_TRUE(made);
+  expect_proper(made->boundary);
+  EXPECT_EQ(made->boundary.components(), 2);
+  const auto joined =
+      generalise(given, sizing::UniformSize(0.05), unit_lattice(), {true, false}, std::span<const Vec2>{});
+  ASSERT_TRUE(joined);
+  EXPECT_EQ(joined->boundary.components(), 1);
+  EXPECT_EQ(joined->counts.severed, 1);
+  EXPECT_NEAR(joined->counts.widest_severed, 0.002 / 0.05, 1e-6);
+}
+
 TEST(Generalise, CutsASpitAndANeck) {
-  // Two squares joined by a bar, from the right one a thin spit.
-  const std::vector<Vec2> ring{{0.1, 0.3},  {0.4, 0.3},  {0.4, 0.5},  {0.6, 0.5},  {0.6, 0.3}, {0.8, 0.3},
-                               {0.8, 0.45}, {0.9, 0.45}, {0.9, 0.46}, {0.8, 0.46}, {0.8, 0.7}, {0.6, 0.7},
-                               {0.6, 0.51}, {0.4, 0.51}, {0.4, 0.7},  {0.1, 0.7}};
-  const Boundary given = boundary_of({polygon_loop(ring)});
-  const auto made = at_size(given, 0.05);
+  const Boundary given = squares_and_bar(0.01);
+  const auto made = generalise(given, sizing::UniformSize(0.05), unit_lattice(), cutting(), {});
   ASSERT_TRUE(made);
   EXPECT_EQ(made->counts.cut, 2);
+  EXPECT_EQ(made->counts.severed, 1);
+  EXPECT_NEAR(made->counts.widest_severed, 0.2, 1e-6);
+  EXPECT_NEAR(made->counts.severed_place.y, 0.505, 1e-6);
   EXPECT_NEAR(made->counts.cut_area, 0.2 * 0.01 + 0.1 * 0.01, 1e-5);
   expect_proper(made->boundary);
   ASSERT_EQ(made->boundary.loops.size(), 2u);
@@ -206,11 +316,13 @@ struct Case {
   std::unique_ptr<const Generalised> made;
 };
 
-Case make_case(const ShapeClass& shape, std::uint64_t seed) {
+/// Every other seed keeps what joins and separates.
+Case make_case(const ShapeClass& shape, std::uint64_t seed, bool may_keep_joining = true) {
   Draws draws(seed);
   Case it{shape.make(draws), draws.log_between(5e-3, 0.2), {}, {}, nullptr};
   it.choice.closes_narrow = draws.unit() < 0.3;
   it.choice.cuts_thin_components = draws.unit() < 0.3;
+  it.choice.keeps_joining = may_keep_joining && seed % 2 == 0;
   for (Loop& loop : it.given.loops)
     for (geometry::Piece& piece : loop.pieces)
       piece.corner = draws.unit() < 0.01;
@@ -292,7 +404,7 @@ TEST(Generalise, LeavesHardlyAnythingNarrowInside) {
   for (const ShapeClass& shape : shape_classes())
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
       SCOPED_TRACE(std::string(shape.name) + " " + std::to_string(seed));
-      const Case it = make_case(shape, seed);
+      const Case it = make_case(shape, seed, false);
       if (!it.made)
         continue;
       before += narrow_parts(it, it.given);

@@ -35,7 +35,7 @@ TEST(GeneralisedBytes, BringAllThatTheyTook) {
   given.covers_torus = true;
   Generalised all{
       boundary_of({polygon_loop({{0.1, 0.1}, {0.9, 0.1}, {0.5, 0.9}}, 3), circle_loop({0.5, 0.4}, 0.1, true, 4, 2)}),
-      {1, 2, 3, 4, 5, 6, 0.5, 0.25, 0.125, 2}};
+      {1, 2, 3, 4, 5, 6, 0.5, 0.25, 0.125, 2, 7, 0.3, {0.1, 0.2}, 8}};
   all.boundary.loops[0].pieces[1].corner = true;
   all.boundary.loops[1].winding = {2, 0};
   const Generalised back = generalised_of_bytes(to_bytes(all), given);
@@ -48,6 +48,8 @@ TEST(GeneralisedBytes, BringAllThatTheyTook) {
             std::tie(was.cut, was.filled, was.closed, was.widened, was.thinned, was.smoothed));
   EXPECT_EQ(std::tie(is.cut_area, is.closed_area, is.largest_move, is.coarseness),
             std::tie(was.cut_area, was.closed_area, was.largest_move, was.coarseness));
+  EXPECT_EQ(std::tie(is.severed, is.widest_severed, is.severed_place, is.held),
+            std::tie(was.severed, was.widest_severed, was.severed_place, was.held));
   ASSERT_EQ(back.boundary.loops.size(), all.boundary.loops.size());
   for (std::size_t k = 0; k < all.boundary.loops.size(); ++k)
     expect_same(back.boundary.loops[k], all.boundary.loops[k]);
