@@ -98,7 +98,7 @@ bool check_arrays(const StoredFile& file, const Mesh& mesh, Report& report) {
       infinite.note([&] { return fmt::format("point {} {}", i, place_of(mesh.points[i])); });
   report.none("id_range", range,
               fmt::format("triangles and facets with ids that are not those of {} points", mesh.points.size()));
-  report.none("finite", infinite, "points whose coordinates are no finite numbers");
+  report.none("finite", infinite, "points whose coordinates are not finite numbers");
   if (range.count > 0)
     return false;
   check_hash(file, mesh, report);
