@@ -99,7 +99,7 @@ def complaint(module, public, bracket, header):
         return "the MPI handle is for comm and io only"
     target = target_of(header)
     if target not in ARROWS:
-        return f"'{target}' is no module; write trime/<module>/<file> or, in src, <module>/<file>"
+        return f"'{target}' is not a module; write trime/<module>/<file> or, in src, <module>/<file>"
     if public and not ours:
         return "a public header cannot include a private one: it would not compile once installed"
     if target not in allowed(module):
@@ -124,7 +124,7 @@ def check(root):
         count += 1
         where = path.relative_to(root)
         if module not in ARROWS and module != VERIFIER:
-            found.append(f"{where}:1: '{module}' is no module that design and this script know")
+            found.append(f"{where}:1: '{module}' is not a module that this script knows")
             continue
         for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
             match = INCLUDE.match(line)

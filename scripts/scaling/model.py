@@ -103,7 +103,7 @@ class Sample:
 
 
 def sample_of(row, machine_cores):
-    """A row of the tables as a sample; output is no part of the model."""
+    """A row of the tables as a sample; output is not part of the model."""
     ranks = row["ranks"]
     phases = {name: phase for name, phase in row["phases"].items() if name not in OUTPUT}
     traffic = {name: tuple(phase[key] / (1 if key == "collectives" else ranks) for key in TRAFFIC)

@@ -209,7 +209,7 @@ void read_resolution(const Settings& settings, const geometry::Box& container, m
                  fmt::format("'edge_length = {}' in [meshing] asks for {} points in a container of area {:.3g}; "
                              "at most {:.0e} are possible; use a larger edge_length",
                              *mesh.edge_length,
-                             expected < 1e18 ? fmt::format("about {:.2g}", expected) : "far too many", area,
+                             std::isfinite(expected) ? fmt::format("about {:.2g}", expected) : "far too many", area,
                              most_points));
 }
 

@@ -61,7 +61,7 @@ struct IniDocument {
   std::vector<IniSection> sections;
   std::vector<IniEntry> entries;
 
-  /// Null if absent. O(entries).
+  /// Returns null if the entry is missing. O(entries).
   const IniEntry* find(std::string_view section, std::string_view key) const;
 };
 

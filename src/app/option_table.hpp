@@ -40,7 +40,7 @@ std::span<const Option> option_table();
 
 /// "shape.NAME" for "shape.hole", else the section itself.
 std::string_view table_section(std::string_view section);
-/// Null if there is no such key.
+/// Returns null if there is no such key.
 const Option* find_option(std::string_view section, std::string_view key);
 /// Names of all sections ("shape.NAME" among them), in the order of the table.
 std::vector<std::string> section_names();
@@ -53,8 +53,8 @@ std::vector<std::string> split_words(std::string_view text);
 /// "a number > 0", "auto or an integer from 1 to 10": what may stand behind the key.
 std::string expectation(const Option& option);
 
-/// Empty if `value` may stand behind the key; else what is wrong with it, without place: `'radius = -1' in
-/// [shape.hole]: expected a number > 0`.
+/// Returns what is wrong with a value, without its place, such as `'radius = -1' in [shape.hole]: expected a number >
+/// 0`; empty if the value is good.
 std::string value_problem(const Option& option, std::string_view section, const std::string& value);
 
 /// The table as Markdown, as `--help-config` prints it.

@@ -20,7 +20,7 @@ public:
 
   /// A block, or null if there is no room for it here: then memory must come from elsewhere.
   void* allocate(std::size_t bytes);
-  /// Takes a block back. False if the pointer is not one of its blocks.
+  /// Frees a block. Returns false if the pointer is not one of its blocks.
   bool deallocate(void* block);
 
   /// Bytes of blocks in use; bytes of pages that are kept for others.

@@ -26,9 +26,10 @@ public:
   /// Line of the section in the file.
   int section_line(const std::string& section) const;
 
-  /// True if the user set the key, even to a bad value or with a misspelt name: no second error should follow from it.
+  /// Returns true if the user set the key, even to a bad value or with a misspelt name, so that no second error
+  /// follows.
   bool is_set(const std::string& section, const std::string& key) const;
-  /// True if the key is set, but not to a value that is in force: what text() gives is not what the user wrote.
+  /// Returns true if the key is set, but to a value that was refused, so that text() gives another value.
   bool was_refused(const std::string& section, const std::string& key) const;
   /// Line of the entry; io::whole_file if it is not set.
   int line(const std::string& section, const std::string& key) const;
@@ -41,7 +42,7 @@ public:
   double number(const std::string& section, const std::string& key) const;
   bool boolean(const std::string& section, const std::string& key) const;
   geometry::Vec2 pair(const std::string& section, const std::string& key) const;
-  /// Empty where the value is absent or a word such as auto.
+  /// Returns nothing if the value is missing or a word such as auto.
   std::optional<double> optional_number(const std::string& section, const std::string& key) const;
   std::optional<std::int64_t> optional_integer(const std::string& section, const std::string& key) const;
   std::int64_t integer(const std::string& section, const std::string& key) const;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "polygon/polygon.hpp"
-#include "trime/boundary/feature_options.hpp"
+#include "trime/boundary/features.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/sizing/size_field.hpp"
 

@@ -115,7 +115,7 @@ private:
   Tree tree_;
 };
 
-/// The container, whose periodic sides are no boundary.
+/// The container, whose periodic sides are not part of the boundary.
 class ContainerCurve : public Curve {
 public:
   ContainerCurve(const Box& box, const Periods& periods) : box_(box), periods_(periods) {}

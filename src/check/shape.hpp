@@ -45,7 +45,7 @@ struct Shape {
 
   double side() const { return std::fmax(container.max.x - container.min.x, container.max.y - container.min.y); }
   /// @brief Returns the part with the name in a mesh file: the part with this name, or a contour that is not read here,
-  /// followed by a point and a name or marker of its features. Null if no part fits.
+  /// followed by a point and a name or marker of its features. Returns null if no part fits.
   const Part* part_of_label(const std::string& label) const;
   /// Returns whether the region contains this part.
   bool is_used(const Part& part) const { return region->uses(static_cast<std::size_t>(&part - parts.data())); }

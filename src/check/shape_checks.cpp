@@ -105,7 +105,7 @@ private:
     report_.none("container", outside,
                  fmt::format("points outside of the container from {} to {}", place_of(box.min), place_of(box.max)));
     report_.none("lattice", off,
-                 fmt::format("points that are no multiples of {:.6g}, the step of its lattice", shape_.step));
+                 fmt::format("points that are not multiples of {:.6g}, the step of its lattice", shape_.step));
   }
 
   void check_fixed_points() {
@@ -122,11 +122,10 @@ private:
     for (std::size_t i = 0; i < mesh_.points.size(); ++i)
       if (mesh_.fixed[i] == 1 && mesh_.boundary[i] == 0 && !given.has(mesh_.points[i]))
         foreign.note([&] { return fmt::format("point {} at {}", i, place_of(mesh_.points[i])); });
-    report_.none(
-        "fixed_points", missing,
-        fmt::format("of {} fixed points of the config those that are no vertices", shape_.fixed_points.size()));
+    report_.none("fixed_points", missing,
+                 fmt::format("fixed points (of {} in the config) that are not vertices", shape_.fixed_points.size()));
     report_.none("fixed_inside", foreign,
-                 "points inside that are marked as fixed, and are no fixed points of the config");
+                 "points inside that are marked as fixed, but are not fixed points of the config");
   }
 
   /// Why corners or curves cannot be judged; empty: they can.

@@ -130,7 +130,7 @@ void check_points(const Mesh& mesh, const Sizing& sizing, Report& report) {
   if (at_floor > 0)
     left_out += fmt::format("; {} on the boundary where the size is lowered to {} of what was asked are left out",
                             at_floor, least_share);
-  report.none("positive_size", not_positive, "points whose `size` is no positive number");
+  report.none("positive_size", not_positive, "points whose `size` is not a positive number");
   judge("size", wrong, mesh.size.size(), sizing,
         fmt::format("points whose `size` is not the length of their edges within a factor of {}{}", size_factor,
                     left_out),

@@ -93,9 +93,9 @@ StoredFile::StoredFile(const std::string& path) {
   if (stat(path.c_str(), &status) != 0)
     throw no_mesh(path, fmt::format("cannot be opened: {}", std::strerror(errno)));
   if (!S_ISREG(status.st_mode))
-    throw no_mesh(path, "is no regular file; expected the NAME.h5 that trime_mpi has written");
+    throw no_mesh(path, "is not a regular file; expected the NAME.h5 that trime_mpi has written");
   if (H5Fis_hdf5(path.c_str()) <= 0)
-    throw no_mesh(path, "is no HDF5 file; expected the NAME.h5 that trime_mpi has written");
+    throw no_mesh(path, "is not an HDF5 file; expected the NAME.h5 that trime_mpi has written");
   file_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (file_ < 0)
     throw no_mesh(path, fmt::format("HDF5 cannot open it ({} bytes): it is cut off or damaged", status.st_size));
@@ -128,7 +128,7 @@ std::vector<T> StoredFile::array(const std::string& name, const std::string& typ
   }
   const Handle set(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
   if (set < 0) {
-    wrong.note([&] { return fmt::format("{} is no array, {}", name, expected()); });
+    wrong.note([&] { return fmt::format("{} is not an array, {}", name, expected()); });
     return values;
   }
   const Handle space(H5Dget_space(set), H5Sclose), stored(H5Dget_type(set), H5Tclose);

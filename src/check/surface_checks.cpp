@@ -122,8 +122,9 @@ private:
     counted_.not_delaunay = not_delaunay.count;
     report_.none("manifold", crowded, "edges of more than two triangles, or of two that both lie on the same side");
     report_.none("delaunay", not_delaunay, "inner edges that are not locally Delaunay (CGAL, exact)");
-    report_.none("rim", not_facets, "edges of one triangle that are no facets");
-    report_.none("facets", without_triangle, "facets that are no edge of exactly one triangle on their left");
+    report_.none("rim", not_facets, "edges of only one triangle that are not facets");
+    report_.none("facets", without_triangle,
+                 "facets that are not an edge of exactly one triangle, with the triangle on their left");
   }
 
   void check_points() {
@@ -210,7 +211,7 @@ private:
 
   void check_area() {
     if (!loops_are_sound_) {
-      report_.skip("area", "the facets are no closed simple loops");
+      report_.skip("area", "the facets are not closed simple loops");
       return;
     }
     Integer polygon = 0, triangles = twice_area_;

@@ -142,7 +142,7 @@ void check_loops(const StoredFile& file, const Mesh& mesh, const Counted& counte
     if (row == rows.end() || !is_name(loop_names[row->second], mesh, loop, names))
       name.note([&] { return fmt::format("loop {} at {}", tag, place_of(mesh, mesh.facets[loop.facets[0]])); });
   }
-  report.none("edge_kind", kind, "loops whose `edge_kind` is not what they go around");
+  report.none("edge_kind", kind, "loops whose `edge_kind` is not the kind of the loop");
   report.none("edge_name", name, "loops whose `edge_name` is not their parts in order");
 }
 
@@ -202,7 +202,7 @@ void check_tables(const StoredFile& file, const Mesh& mesh, const Counted& count
   check_labels(file, mesh, report);
   check_columns(file, mesh, report);
   if (counted.boundary.empty() && !mesh.facets.empty())
-    report.skip("edge_kind, edge_name", "the facets are no closed simple loops");
+    report.skip("edge_kind, edge_name", "the facets are not closed simple loops");
   else
     check_loops(file, mesh, counted, report);
   if (is_step(file))
@@ -308,7 +308,7 @@ bool check_arrays(const StoredFile& file, const Mesh& mesh, Report& report) {
       infinite.note([&] { return fmt::format("point {} {}", i, place_of(mesh.points[i])); });
   report.none("id_range", range,
               fmt::format("triangles and facets with ids that are not those of {} points", mesh.points.size()));
-  report.none("finite", infinite, "points whose coordinates are no finite numbers");
+  report.none("finite", infinite, "points whose coordinates are not finite numbers");
   if (range.count > 0)
     return false;
   check_hash(file, mesh, report);

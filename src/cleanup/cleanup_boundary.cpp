@@ -38,7 +38,7 @@ BoundaryPlace CleanupBoundary::place(BoundaryName site) const {
   if (const auto known = known_.find(site); known != known_.end())
     return known->second;
   const auto k = static_cast<std::size_t>(site);
-  TRIME_ASSERT(k < sites_.sites.size(), "nothing is known of the boundary site {}", site);
+  TRIME_ASSERT(k < sites_.sites.size(), "the clean-up has no data of the boundary site {}", site);
   const polygon::BoundarySite& its = sites_.sites[k];
   return {loops_[k], its.corner, curve_.arc(loops_[k], its), tolerances_[k], its.next};
 }

@@ -219,7 +219,7 @@ bool PatchMover::keeps_clear(const Patch& patch, Vec2 to) const {
 }
 
 /// The neighbours of a vertex on the boundary, from its next one there to its previous one, in `around_`.
-/// @return false if one of the two is no neighbour in the triangulation
+/// @return false if one of the two is not a neighbour in the triangulation
 bool PatchMover::load_fan(const Patch& patch, LocalIndex v) {
   const BoundaryVertex& own = patch.boundary[at(v)];
   patch.mesh.collect_ring(v, ring_);

@@ -103,8 +103,9 @@ void warn_of_wrong_writer([[maybe_unused]] bool speaks) {
 
 void check_usable(MPI_Comm comm) {
   if (!mpi_is_running())
-    throw ConfigError("MPI is not running: expected a trime::Environment, or MPI_Init_thread, before and MPI_Finalize "
-                      "afterwards");
+    throw ConfigError(
+        "MPI is not running: make a trime::Environment or call MPI_Init_thread before, and call MPI_Finalize "
+        "only afterwards");
   if (comm == MPI_COMM_NULL)
     throw ConfigError("the communicator is MPI_COMM_NULL: expected one that this rank belongs to; ranks that "
                       "MPI_Comm_split left out must not call this function");

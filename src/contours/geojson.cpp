@@ -143,7 +143,7 @@ private:
     std::vector<Chain> chains;
     int lists = 0; // other arrays that are open
     bool has_coordinates = false;
-    bool is_property = false;             // of something, or part of one: its type and coordinates are no geometry
+    bool is_property = false;             // of something, or part of one: its type and coordinates are not a geometry
     std::vector<std::string> attributes;  // names of its properties, if it turns out to be a feature
     std::optional<std::string> attribute; // that of them which names the boundary
   };

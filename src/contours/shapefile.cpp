@@ -89,7 +89,7 @@ bool is_utf8(std::string_view text) {
   return true;
 }
 
-/// A text that is no UTF-8 is Latin-1, as old shapefiles have it.
+/// A text that is not UTF-8 is Latin-1, as in old shapefiles.
 std::string as_utf8(const std::string& text) {
   if (is_utf8(text))
     return text;

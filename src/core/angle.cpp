@@ -19,7 +19,8 @@ constexpr double factorial(int n) {
   return n < 2 ? 1.0 : n * factorial(n - 1);
 }
 
-/// 1/n! for n = 0 .. 18: a factorial in the loop is no constant to every compiler, and took ten times as long.
+/// 1/n! for n = 0 .. 18: not every compiler treats a factorial in the loop as a constant, and it took ten times as
+/// long.
 constexpr std::array<double, 19> inverse_factorial = [] {
   std::array<double, 19> list{};
   for (std::size_t n = 0; n < list.size(); ++n)

@@ -74,7 +74,7 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 } // namespace
 
 std::string nearest_name(std::string_view word, std::span<const std::string> candidates) {
-  constexpr std::size_t longest = 64; // longer words are no misspelt names
+  constexpr std::size_t longest = 64; // longer words are not misspelt names
   if (word.size() > longest)
     return {};
   std::string best;

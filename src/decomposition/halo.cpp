@@ -331,7 +331,7 @@ std::vector<GhostNews> Halo::tell_owners(const mesh::BinnedPoints& points, std::
   for (std::size_t k = 0; k < ghosts.size(); ++k) {
     const auto source = std::upper_bound(sources.begin(), sources.end(), ghosts[k],
                                          [](LocalIndex ghost, const Source& s) { return ghost < s.first; });
-    TRIME_ASSERT(source != sources.begin(), "site {} of {} is no ghost", ghosts[k], points.size());
+    TRIME_ASSERT(source != sources.begin(), "site {} of {} is not a ghost", ghosts[k], points.size());
     const int rank = (source - 1)->rank;
     auto message = std::find_if(outgoing.begin(), outgoing.end(), [&](const Message& m) { return m.peer == rank; });
     if (message == outgoing.end())

@@ -76,7 +76,7 @@ PetscErrorCode make_plex(const LocalMesh& mesh, const std::vector<std::string>& 
   PetscFunctionReturn(0);
 }
 
-/// One unknown at each vertex; those of the label `given` are no unknowns. Collective.
+/// One unknown at each vertex; those of the label `given` are not unknowns. Collective.
 PetscErrorCode number_unknowns(DM dm, const char* given) {
   PetscFunctionBeginUser;
   const PetscInt components = 1, of_dimension[] = {1, 0, 0}, field = 0;

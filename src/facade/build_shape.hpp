@@ -61,8 +61,8 @@ inline double called(const std::function<double(geometry::Vec2)>& function, geom
   } catch (const std::exception& error) {
     throw GeometryError(fmt::format("{} failed at ({:.9g}, {:.9g}): {}", what, p.x, p.y, error.what()));
   } catch (...) {
-    throw GeometryError(
-        fmt::format("{} failed at ({:.9g}, {:.9g}): it threw an exception that is no std::exception", what, p.x, p.y));
+    throw GeometryError(fmt::format("{} failed at ({:.9g}, {:.9g}): it threw an exception that is not a std::exception",
+                                    what, p.x, p.y));
   }
 }
 

@@ -21,8 +21,8 @@ std::string quoted(std::string name) {
   return '"' + name + '"';
 }
 
-/// @brief Parts of the boundary that have edges, ascending. The others are no curves of the file: meshio and dolfinx do
-/// not read an entity without elements.
+/// @brief Parts of the boundary that have edges, ascending. The others are not curves of the file: meshio and dolfinx
+/// do not read an entity without elements.
 std::vector<std::size_t> parts_with_edges(const ExchangeMesh& mesh) {
   std::vector<std::size_t> parts;
   for (std::size_t part = 0; part < mesh.names().parts.size(); ++part)

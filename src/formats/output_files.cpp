@@ -60,7 +60,7 @@ void check_could_be_made(const std::string& directory) {
   while (!std::filesystem::exists(std::filesystem::symlink_status(existing, error)) && existing.has_relative_path())
     existing = existing.parent_path();
   if (!std::filesystem::is_directory(existing, error))
-    throw FileError(fmt::format("cannot make the output directory {}: {} is no directory; set output.directory",
+    throw FileError(fmt::format("cannot make the output directory {}: {} is not a directory; set output.directory",
                                 directory, existing.string()));
   if (access(existing.c_str(), W_OK | X_OK) != 0)
     throw FileError(fmt::format("cannot write into the output directory {}: {}: {}; set output.directory", directory,

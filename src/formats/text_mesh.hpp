@@ -47,7 +47,7 @@ void write_text_mesh(const TextPlace& place, const mesh::DistributedMesh& mesh, 
 /// Returns the text of NAME_tria_quality_stat_overall.txt: 13 columns for each mesh written so far.
 std::string overall_quality_text(std::span<const TextQuality> meshes);
 
-/// @brief True for names that write_text_mesh() gives to files, with any label; `file` has no directory.
+/// @brief Returns true for names that write_text_mesh() gives to files, with any label. `file` has no directory.
 bool is_text_mesh_file(const std::string& file, const std::string& name);
 
 } // namespace trime::formats

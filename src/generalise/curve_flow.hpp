@@ -20,8 +20,8 @@ struct SmoothedCurves {
 /// shortening flow moves it until these turns, or features of the size `reach`, are gone. Under this flow simple curves
 /// stay simple and do not meet (Grayson, J. Diff. Geom. 26, 1987); each loop keeps its area. Curves that turn one way
 /// only, corners with smooth arms, arcs, and vertices that the user has asked for do not move. Next to these, curves
-/// may cross in rare cases; the caller must check. Null if nothing is ragged. Each of a few steps takes O(pieces +
-/// length / h).
+/// may cross in rare cases; the caller must check. Returns null if nothing is ragged. Each of a few steps takes
+/// O(pieces + length / h).
 /// @param reach [h]
 /// @throws GeometryError if a size is not positive and finite
 std::unique_ptr<SmoothedCurves> smooth_ragged_runs(const geometry::Boundary& boundary, const sizing::SizeField& size,

@@ -183,7 +183,7 @@ struct Sector {
   double longest = 0; // edge at the vertex; infinite if it leads to a point that must stay inside
 };
 
-/// The inside sectors at v. @pre v is no corner of the box
+/// The inside sectors at v. @pre v is not a corner of the box
 std::vector<Sector> sectors_at(const CurveMap& map, const Rim& rim, LocalIndex v) {
   const Triangulation& mesh = map.mesh();
   std::vector<Sector> sectors;

@@ -184,7 +184,7 @@ void SlabFile::ascii_attribute(const std::string& object, const std::string& nam
   write_attribute(object, name, [&] { return text_value(text, H5T_CSET_ASCII); });
 }
 
-/// Rank 0 writes the data alone: they are few, and this is no collective call.
+/// Rank 0 alone writes the data, because they are few. This is not a collective call.
 template <class Make>
 void SlabFile::small_dataset(const std::string& path, const Make& make) {
   SmallValues values;

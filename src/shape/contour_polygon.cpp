@@ -225,7 +225,7 @@ void Placement::tell_pieces(const Polygon& polygon, std::vector<std::string>& wa
   if (contour_.is_map)
     return;
   const std::span<const Segment> segments = polygon.grid.segments();
-  std::vector<int> starts; // lines of the rings that are no holes
+  std::vector<int> starts; // lines of the rings that are not holes
   double largest = 0;
   std::size_t main = 0;
   for (std::size_t k = 0; k < polygon.rings.size(); ++k) {

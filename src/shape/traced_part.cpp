@@ -31,7 +31,7 @@ using geometry::Vec2;
 constexpr double default_resolution = 1.0 / 512;
 // [cells] Vertices so near to each other are one: rounding, or a node of the grid on the curve, made two.
 constexpr double nearly_equal = 1e-3;
-constexpr std::size_t fewest_vertices = 3;   // A closed chain of fewer vertices is no loop
+constexpr std::size_t fewest_vertices = 3;   // A closed chain of fewer vertices is not a loop.
 constexpr std::size_t most_chains = 1 << 14; // [chains] Largest number for a formula: it bounds time and memory
 // A piece of a contour at a periodic border finds its partner across within this share of the longer side.
 constexpr double partner_reach = 1e-5;

@@ -235,7 +235,7 @@ void SiteState::refresh(const sizing::SizeField& size) {
 }
 
 void SiteState::forget_sizes() {
-  TRIME_ASSERT(has_sites(), "no sites whose sizes could be forgotten, or their ghosts are on their way");
+  TRIME_ASSERT(has_sites(), "sizes cannot be forgotten now: there are no sites, or their ghosts have not arrived");
   sizes_.forget();
 }
 

@@ -103,7 +103,7 @@ class Layers(unittest.TestCase):
         self.assertEqual(run(files)[0], 1, "a way around the check")
 
     def test_unknown_modules_and_an_empty_tree_are_refused(self):
-        self.assert_refused("src/io/a.cpp", '#include "handle.hpp"', "no module")
+        self.assert_refused("src/io/a.cpp", '#include "handle.hpp"', "is not a module")
         self.assertEqual(run({"src/solver/a.cpp": "\n"})[0], 1)
         self.assertEqual(run({"readme": "\n"})[0], 1)
 

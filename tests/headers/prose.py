@@ -25,7 +25,7 @@ AUXILIARIES = set("am is are was were be been being has have had do does did can
                   "should will would".split())
 ADVERBS = set("not also always never no only still".split())
 FRAGMENT_OPENERS = re.compile(r"^(Of|The same|As|Those|Like|Likewise|What|Whether|Which|How|Who)\b")
-HEADER_OPENERS = re.compile(r"^(of|those|the same)\b", re.IGNORECASE)
+HEADER_OPENERS = re.compile(r"^([Oo]f|[Tt]hose|[Tt]he same|(True|False|Null|Nothing|Empty) (if|where|once|when))\b")
 CLAUSE_OPENERS = re.compile(r"\b(whether|what|which|how|who|that|if|where|when)\b", re.IGNORECASE)
 
 
@@ -221,8 +221,8 @@ def faults(passage):
 
 
 def header_faults(passage):
-    """One line for each fault that only comments of headers have: a question in place of "Returns whether ...", and a
-    comment that begins behind its noun, such as `of this rank`."""
+    """One line for each fault that only comments of headers have: a question in place of "Returns whether ...", "True
+    if" in place of "Returns true if", and a comment that begins behind its noun, such as `of this rank`."""
     if passage.kind != "comment":
         return []
     opener = HEADER_OPENERS.match(passage.text)

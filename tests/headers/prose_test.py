@@ -133,7 +133,8 @@ class Reader(unittest.TestCase):
 
     def test_finds_faults_of_headers(self):
         for text, fault in (("of this rank", "begins with 'of'"), ("The same, by part.", "begins with 'The same'"),
-                            ("those of the rank", "begins with 'those'"), ("Is p inside? Exact.", "asks: Is p inside?")):
+                            ("those of the rank", "begins with 'those'"), ("Is p inside? Exact.", "asks: Is p inside?"),
+                            ("False if there is none.", "begins with 'False if'")):
             found = prose.header_faults(prose.Passage(1, "comment", text))
             self.assertEqual(len(found), 1, f"{text}: {found}")
             self.assertTrue(found[0].startswith(fault), found)

@@ -53,7 +53,8 @@ inline TriangleSet triangles_of(const mesh::BinnedPoints& points, const delaunay
   return all;
 }
 
-/// Every ring is counter-clockwise, starts at its smallest neighbour, names nobody twice and has no double gaps.
+/// Checks that every ring is counter-clockwise, starts at its smallest neighbour, and has no repeated neighbour or
+/// double gap.
 inline void expect_well_formed(const mesh::BinnedPoints& points, const delaunay::StarTable& stars) {
   for (LocalIndex i = 0; i < points.owned(); ++i) {
     const std::span<const LocalIndex> ring = stars.ring(i);

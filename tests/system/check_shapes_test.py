@@ -58,7 +58,7 @@ class Shapes(unittest.TestCase):
             self.assertIn(name, wrong, text)
 
     def test_periodic_bands(self):
-        """Sides that an image of the same part goes on at are no boundary, and their ends no corners."""
+        """Sides where an image of the same part continues are not boundary, and their ends are not corners."""
         x, y = "periodic_x = true\n", "periodic_y = true\n"
         band = {"band.xy": "0 0.2\n0.5 0.3\n1 0.2\n1 0.8\n0 0.8\n"}
         for name, domain, parts, corners in (

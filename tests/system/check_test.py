@@ -69,7 +69,7 @@ def inner(file, count=1):
 
 
 def rim(file):
-    """A point on the boundary that is no corner."""
+    """A point on the boundary that is not a corner."""
     data = file["VTKHDF/PointData"]
     return np.flatnonzero((data["boundary"][:] != 0) & (data["fixed"][:] == 0))[5]
 
@@ -209,14 +209,14 @@ DAMAGES = {
     "a foreign part": (lambda f: change(f, "Mesh/facets/parts", 7, 5), ["tags", "facet_parts"]),
     "a wrong tag of a point": (lambda f: change(f, "VTKHDF/PointData/boundary", inner(f)[0], 1), ["boundary_array"]),
     "a table of tags changed": (lambda f: change(f, "trime_mpi/tags/edge_count", 0, 3), ["tags"]),
-    "a coordinate that is no number": (lambda f: change(f, GEOMETRY, (9, 0), np.nan), ["finite"]),
+    "a coordinate that is not a number": (lambda f: change(f, GEOMETRY, (9, 0), np.nan), ["finite"]),
     "an id out of range": (lambda f: change(f, TOPOLOGY, (9, 1), 10**9), ["id_range"]),
     "a negative id": (lambda f: change(f, "Mesh/facets/topology", (9, 1), -1), ["id_range"]),
     "alpha edited": (lambda f: change(f, "VTKHDF/CellData/alpha", 9, 1.001), ["alpha"]),
     "beta edited": (lambda f: change(f, "VTKHDF/CellData/beta", 9, np.nan), ["beta"]),
     "a size of zero": (lambda f: change(f, "VTKHDF/PointData/size", 9, 0), ["positive_size"]),
     "a large size": (lambda f: change(f, "VTKHDF/PointData/size", 9, 5), ["size"]),
-    "an asked size that is no number": (lambda f: change(f, "Mesh/facets/asked_size", 9, np.nan), ["asked_size"]),
+    "an asked size that is not a number": (lambda f: change(f, "Mesh/facets/asked_size", 9, np.nan), ["asked_size"]),
     "a region of zero": (lambda f: change(f, "VTKHDF/CellData/region", 9, 0), ["region"]),
     "alpha cut off": (lambda f: replace(f, "VTKHDF/CellData/alpha", f["VTKHDF/CellData/alpha"][:-5]), ["arrays"]),
     "an array of another type": (bend("VTKHDF/CellData/alpha"), ["arrays"]),
@@ -417,7 +417,7 @@ class Check(unittest.TestCase):
         (self.work / "cut.h5").write_bytes(whole.read_bytes()[:whole.stat().st_size // 2])
         with h5py.File(self.work / "foreign.h5", "w") as file:
             file["data"] = [1, 2, 3]
-        for name, told in (("none.h5", "No such file"), (".", "no regular file"), ("text.h5", "no HDF5 file"),
+        for name, told in (("none.h5", "No such file"), (".", "not a regular file"), ("text.h5", "not an HDF5 file"),
                            ("cut.h5", "cut off"), ("foreign.h5", "no mesh of trime_mpi")):
             with self.subTest(file=name):
                 code, text = check(self.work / name)

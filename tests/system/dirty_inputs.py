@@ -86,7 +86,7 @@ READ = [
      MSH.replace("edge2", "EDGE2") + "tria3=1\n0;1;2;0\nvalue=4;1\n1\n1\n1\n1\n", WHOLE),
 ]
 REFUSED = [
-    ("three columns", "a.xy", xy([line + " 0" for line in SQUARE]), GEOMETRY, r"a\.xy:1: .*three numbers"),
+    ("three columns", "a.xy", xy([line + " 0" for line in SQUARE]), GEOMETRY, r"a\.xy:1: .*remove the third column"),
     ("decimal commas", "a.xy", xy([line.replace(".", ",") for line in SQUARE]), GEOMETRY, r"a\.xy:1: .*point"),
     ("latitude first", "a.xy", "lat lon\n" + xy(SQUARE), GEOMETRY, r"a\.xy:1: .*other order"),
     ("crossing", "a.xy", xy([SQUARE[0], SQUARE[2], SQUARE[1], SQUARE[3]]), GEOMETRY, r"a\.xy:\d: .*crosses.*near \("),

@@ -19,7 +19,7 @@ import trime_mpi  # noqa: E402  (found by the line above)
 from trime_mpi.environment import run_environment  # noqa: E402
 
 HERE = pathlib.Path(__file__).resolve().parent
-# What mpirun leaves for its processes that is no part of its job: they take it as they would take it from the user.
+# What mpirun leaves for its processes that is not part of its job: they use it as if the user had set it.
 HARMLESS = {"OMPI_MCA_orte_tmpdir_base", "PMIX_MCA_mca_base_component_show_load_errors"}
 
 
@@ -131,7 +131,7 @@ class Variables(unittest.TestCase):
         self.assertEqual(run_environment(job | {"OMPI_MCA_pmix": "ext3x"})["OMPI_MCA_pmix"], "ext3x")
 
     def test_what_slurm_sets_stays_behind(self):
-        """Except the number of the job. A batch script is no process of a job: its runs may use all nodes."""
+        """Except the number of the job. A batch script is not a process of a job: its runs may use all nodes."""
         batch = {"SLURM_JOB_ID": "7", "SLURM_JOBID": "7", "SLURM_NODELIST": "a,b", "SLURM_PROCID": "0"}
         self.assertEqual(run_environment(batch), run_environment({}) | batch)
         left = run_environment(batch | {"SLURM_STEP_ID": "0", "SLURM_STEP_NUM_TASKS": "2"})

@@ -7,12 +7,9 @@
 #include "trime/geometry/vec2.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
-
-#include "trime/geometry/vec2.hpp"
-
-#include <optional>
 
 namespace trime::boundary {
 

@@ -83,8 +83,8 @@ private:
 /// Returns "12 s", "3 min", "2 h 10 min": rounded as an estimate deserves.
 std::string duration_text(double seconds);
 
-/// @brief True while a live line is on the terminal. Code that writes without the log, such as a signal handler, must
-/// first write live_line_eraser to the standard output. May be called from a signal handler.
+/// @brief Returns true while a live line is on the terminal. Code that writes without the log, such as a signal
+/// handler, must first write live_line_eraser to the standard output. May be called from a signal handler.
 bool live_line_stands() noexcept;
 inline constexpr char live_line_eraser[] = "\r\033[K";
 

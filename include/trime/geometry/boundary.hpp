@@ -60,7 +60,7 @@ struct Boundary {
   std::vector<std::string> part_names;
   double area = 0; ///< enclosed area, arcs included
   Periods periods; ///< periods of the container
-  /// True if one component reaches around the torus both ways. Then all its loops are holes, or it has no loops.
+  /// One component reaches around the torus both ways. Then all its loops are holes, or it has no loops.
   bool covers_torus = false;
 
   int components() const; ///< outer loops, bands (two winding loops each), and one if covers_torus

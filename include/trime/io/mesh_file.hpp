@@ -80,8 +80,8 @@ WrittenFiles write_mesh(const MeshFileOptions& options, const mesh::DistributedM
 /// Returns the version of the HDF5 library, for example "1.10.8".
 std::string hdf5_version();
 
-/// @brief True if HDF5 could not close a file on this rank, for example a file beyond a limit of the system. HDF5 would
-/// try again in MPI_Finalize and crash there (1.10.8), so the program must then end with `comm::abort_job`.
+/// @brief Returns true if HDF5 could not close a file on this rank, for example a file beyond a limit of the system.
+/// HDF5 would try again in MPI_Finalize and crash there (1.10.8), so the program must then end with `comm::abort_job`.
 bool hdf5_cannot_end();
 
 /// @brief Reads the group /trime_mpi of a mesh file. Leaves out attributes of other types than those of Attribute.

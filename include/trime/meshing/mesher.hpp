@@ -98,7 +98,7 @@ MeshResult make_mesh(const comm::Communicator& comm, const shape::RegionShape& s
 geometry::Domain traced_domain(const comm::Communicator& comm, const tracing::Shape& shape,
                                const geometry::Frame& frame);
 
-/// True if the stop rule was met and every check passed.
+/// Returns true if the stop rule was met and every check passed.
 bool is_complete(const MeshResult& result);
 
 } // namespace trime::meshing

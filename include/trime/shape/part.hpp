@@ -69,7 +69,7 @@ public:
   const std::string& name() const { return name_; }
   /// Warnings for the user, one sentence each: those of the contour, and about vertices that the lattice made equal.
   const std::vector<std::string>& warnings() const { return warnings_; }
-  /// Null if the part is not of this kind.
+  /// Return null if the part is not of this kind.
   const Circle* as_circle() const { return std::get_if<Circle>(&form_); }
   const Polygon* as_polygon() const { return std::get_if<Polygon>(&form_); }
   bool is_contour() const { return is_contour_; }
