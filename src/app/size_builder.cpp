@@ -39,9 +39,9 @@ void check_periods(const Formula& formula, const RunOptions& options, const geom
     const double at_p = formula.evaluate(p.x, p.y), at_q = formula.evaluate(q.x, q.y);
     if (!(std::fabs(at_p - at_q) <= same * std::fabs(at_p)))
       throw ConfigError(fmt::format("{} = {}: expected the same size on both sides of the periodic "
-                                    "container, found {:.6g} at ({:.6g}, {:.6g}) and {:.6g} at ({:.6g}, {:.6g})",
-                                    options.sizing.expression_place, options.sizing.expression, at_p, p.x, p.y, at_q,
-                                    q.x, q.y));
+                                    "container, found {:.6g} at {} and {:.6g} at {}",
+                                    options.sizing.expression_place, options.sizing.expression, at_p, Place(p, 6), at_q,
+                                    Place(q, 6)));
   };
   for (int k = 0; k < lines; ++k) {
     const double share = (k + 0.5) / lines;

@@ -55,17 +55,21 @@ private:
   mesh::BadTriangle away_;               ///< the worst that no corner excuses
 };
 
-/// Mergeable: sums are integers inside, the worst triangle is the lexicographically first of equals.
+/// Mergeable: sums are integers inside, the worst triangle and the shortest edge are the lexicographically first of
+/// equals.
 struct QualitySums {
   mesh::RatioStatistics alpha, beta;
   double least_sine = std::numeric_limits<double>::infinity(); ///< of the smallest angle of a triangle
   double worst_alpha = 0;
   geometry::Vec2 worst_place;
-  FixedSum ratio, squared_ratio; ///< L / h over edges
+  double shortest = std::numeric_limits<double>::infinity(); ///< length of an edge
+  geometry::Vec2 shortest_place;                             ///< its middle, in the container
+  FixedSum ratio, squared_ratio;                             ///< L / h over edges
   std::int64_t edges = 0;
   BadTriangles bad;
 
   void note_worst(double a, geometry::Vec2 place);
+  void note_shortest(double length, geometry::Vec2 place);
   void add(const QualitySums& other);
 };
 

@@ -18,8 +18,8 @@ ExpressionSize::ExpressionSize(const Formula& formula, const geometry::Box& box)
       if (!std::isfinite(value) || value <= 0)
         throw ConfigError(
             fmt::format("{}: expected a positive size everywhere in the shape's bounding box, found {} at "
-                        "({}, {}) for '{}'; wrap it in max(..., smallest size) if that place is outside",
-                        formula.where(), value, x, y, formula.text()));
+                        "{} for '{}'; wrap it in max(..., smallest size) if that place is outside",
+                        formula.where(), value, Place(geometry::Vec2{x, y}, 0), formula.text()));
       largest = std::fmax(largest, value);
     }
   smallest_ = smallest_share * largest;

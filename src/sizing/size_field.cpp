@@ -6,9 +6,9 @@
 namespace trime::sizing {
 
 void fail_for_size(geometry::Vec2 p, double size) {
-  throw GeometryError(fmt::format("the size field at ({}, {}): expected a positive finite size, found {}; the field "
+  throw GeometryError(fmt::format("the size field at {}: expected a positive finite size, found {}; the field "
                                   "must be positive in the whole shape",
-                                  p.x, p.y, size));
+                                  Place(p, 0), size));
 }
 
 } // namespace trime::sizing
