@@ -10,7 +10,7 @@ for the same shape and number of points.
 
   scripts/quality_table.py                                  # the shapes that need no data
   scripts/quality_table.py --data DIR                       # with DIR/poker.xy and DIR/north_america.xy
-  scripts/quality_table.py --rows slope --methods cvd,hybrid meshing.seed=2
+  scripts/quality_table.py --rows slope --methods cvt,hybrid meshing.seed=2
 """
 import argparse
 import pathlib
@@ -48,16 +48,16 @@ ROWS = {
 # TriMe++: median, mean, largest alpha; retriangulations.
 REFERENCE = {
     ("square 1e4", "distmesh"): (1.010, 1.020, 1.33, "65-87"),
-    ("square 1e4", "cvd"): (1.017, 1.032, 1.41, "36-50"),
+    ("square 1e4", "cvt"): (1.017, 1.032, 1.41, "36-50"),
     ("square 1e4", "hybrid"): (1.016, 1.030, 1.33, "31-54"),
     ("square 1e5", "distmesh"): (1.010, 1.020, 1.537, "38-89"),
-    ("square 1e5", "cvd"): (1.019, 1.034, 1.521, "36-40"),
+    ("square 1e5", "cvt"): (1.019, 1.034, 1.521, "36-40"),
     ("square 1e5", "hybrid"): (1.015, 1.029, 1.507, "35-51"),
     ("poker 1e4", "distmesh"): (1.017, 1.033, 14.8, "82-94"),
-    ("poker 1e4", "cvd"): (1.024, 1.043, 7.66, "115-116"),
+    ("poker 1e4", "cvt"): (1.024, 1.043, 7.66, "115-116"),
     ("poker 1e4", "hybrid"): (1.019, 1.035, 4.64, "93-110"),
     ("poker 1e5", "distmesh"): (1.017, 1.034, 16.5, "106-115"),
-    ("poker 1e5", "cvd"): (1.021, 1.038, 31.1, "124-126"),
+    ("poker 1e5", "cvt"): (1.021, 1.038, 31.1, "124-126"),
     ("poker 1e5", "hybrid"): (1.017, 1.033, 3.82, "107-115"),
     ("coast 2e4", "hybrid"): (1.035, 1.060, 6.24, "96-108"),
 }
@@ -88,7 +88,7 @@ def main():
     parser.add_argument("--data", type=pathlib.Path, help="the directory of poker.xy and north_america.xy")
     parser.add_argument("--program", default=ROOT / "build" / "release" / "trime_mpi",
                         help="the program to measure (default: build/release/trime_mpi)")
-    parser.add_argument("--methods", default="distmesh,cvd,hybrid", help="default: %(default)s")
+    parser.add_argument("--methods", default="distmesh,cvt,hybrid", help="default: %(default)s")
     parser.add_argument("--rows", default="", help="only the rows whose name contains this text")
     parser.add_argument("overrides", nargs="*", help="section.key=value, for every run")
     arguments = parser.parse_args()

@@ -87,6 +87,6 @@ private:
 
 /// @brief Refuses coordinates that are not finite or larger than ContourRules::largest_coordinate.
 /// @throws GeometryError `source:line: ...`
-void check_coordinates(geometry::Vec2 p, const std::string& source, int line);
+void check_coordinates(geometry::Vec2 p, const std::string& source, int line, const std::string& feature = {});
 
 } // namespace trime::contours

@@ -12,6 +12,8 @@ public:
   /// @param contour with its source; gets rings and warnings, and outlives this object
   explicit RingBuilder(Contour& contour) : contour_(contour) {}
 
+  /// What messages say behind the line from here on, such as " (feature 3)".
+  void set_feature(const std::string& feature) { feature_ = feature; }
   /// @param marker of the edge from this vertex to the next
   /// @throws GeometryError for coordinates that are too large
   void add(geometry::Vec2 p, int line, int marker = 0);
@@ -27,6 +29,7 @@ private:
 
   Contour& contour_;
   ContourRing ring_;
+  std::string feature_;
   int merged_ = 0;
 };
 

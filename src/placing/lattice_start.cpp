@@ -33,6 +33,16 @@ std::pair<double, double> clip_line(Vec2 from, Vec2 direction, const geometry::B
   return {low, high};
 }
 
+/// The least and the largest coordinate of a box in a direction.
+std::pair<double, double> extent_along(Vec2 direction, Vec2 origin, const geometry::Box& box) {
+  double least = INFINITY, largest = -INFINITY;
+  for (const Vec2 corner : {box.min, Vec2{box.max.x, box.min.y}, box.max, Vec2{box.min.x, box.max.y}}) {
+    least = std::min(least, geometry::dot(corner - origin, direction));
+    largest = std::max(largest, geometry::dot(corner - origin, direction));
+  }
+  return {least, largest};
+}
+
 /// The last row or column from `first` on up to a limit, and no more than one period of them.
 std::int64_t last_of(std::int64_t first, double limit, std::int64_t period) {
   const auto last = static_cast<std::int64_t>(std::ceil(limit));
@@ -153,13 +163,8 @@ std::vector<LatticeRun> LatticeStart::runs_in(const mesh::TileGrid& grid, LocalI
   geometry::Box box = grid.tile_box(tile);
   box = {box.min - Vec2{0.1 * spacing, 0.1 * spacing}, box.max + Vec2{0.1 * spacing, 0.1 * spacing}};
   const Vec2 across = geometry::left_normal(rows.along);
-  double low = INFINITY, high = -INFINITY, begin = INFINITY, end = -INFINITY;
-  for (const Vec2 corner : {box.min, Vec2{box.max.x, box.min.y}, box.max, Vec2{box.min.x, box.max.y}}) {
-    low = std::min(low, geometry::dot(corner - rows.origin, across));
-    high = std::max(high, geometry::dot(corner - rows.origin, across));
-    begin = std::min(begin, geometry::dot(corner - rows.origin, rows.along));
-    end = std::max(end, geometry::dot(corner - rows.origin, rows.along));
-  }
+  const auto [low, high] = extent_along(across, rows.origin, box);
+  const auto [begin, end] = extent_along(rows.along, rows.origin, box);
   const bool clear = is_clear(grid, tile, spacing);
   const auto first_row = static_cast<std::int64_t>(std::floor(low / rows.height));
   for (std::int64_t j = first_row; j <= last_of(first_row, high / rows.height, rows.rows); ++j) {

@@ -26,18 +26,38 @@ Vec2 nearest_on_arc(Vec2 p, const Piece& arc) {
   return squared_length(p - arc.start) <= squared_length(p - arc.end) ? arc.start : arc.end;
 }
 
+struct Segment { // little, since there may be very many
+  const Piece* piece;
+  const Vec2* shift;
+  Box box() const {
+    const Box given = piece->covering_box();
+    return {given.min + *shift, given.max + *shift};
+  }
+};
+
+/// The segments as the search kernel wants them; places behind the last one hold no number.
+std::vector<SegmentLeaf> leaves_of(const std::vector<Segment>& segments) {
+  SegmentLeaf none{};
+  std::fill(std::begin(none.a_x), std::end(none.a_x), std::numeric_limits<double>::quiet_NaN());
+  std::vector<SegmentLeaf> leaves((segments.size() + BoxTree::width - 1) / BoxTree::width, none);
+  for (std::size_t k = 0; k < segments.size(); ++k) {
+    SegmentLeaf& leaf = leaves[k / BoxTree::width];
+    const std::size_t place = k % BoxTree::width;
+    const Vec2 a = segments[k].piece->start + *segments[k].shift, d = segments[k].piece->end + *segments[k].shift - a;
+    const double square = squared_length(d);
+    leaf.a_x[place] = a.x;
+    leaf.a_y[place] = a.y;
+    leaf.d_x[place] = d.x;
+    leaf.d_y[place] = d.y;
+    leaf.inverse_square[place] = square > 0 ? 1 / square : 0;
+  }
+  return leaves;
+}
+
 } // namespace
 
 PieceLocator::PieceLocator(const geometry::Boundary& boundary, const Images& images)
     : kernel_(search_kernel(simd_level())) {
-  struct Segment { // little, since there may be very many
-    const Piece* piece;
-    const Vec2* shift;
-    Box box() const {
-      const Box given = piece->covering_box();
-      return {given.min + *shift, given.max + *shift};
-    }
-  };
   std::vector<Segment> segments;
   std::size_t pieces = 0;
   for (const geometry::Loop& loop : boundary.loops)
@@ -58,20 +78,7 @@ PieceLocator::PieceLocator(const geometry::Boundary& boundary, const Images& ima
       }
   arc_tree_ = BoxTree(arcs_.size(), [&](std::size_t k) { return BoxTree::Item{arcs_[k].box, 0}; });
   segment_tree_ = BoxTree(segments.size(), [&](std::size_t k) { return BoxTree::Item{segments[k].box(), 0}; });
-  SegmentLeaf none{};
-  std::fill(std::begin(none.a_x), std::end(none.a_x), std::numeric_limits<double>::quiet_NaN());
-  segments_.resize((segments.size() + BoxTree::width - 1) / BoxTree::width, none);
-  for (std::size_t k = 0; k < segments.size(); ++k) {
-    SegmentLeaf& leaf = segments_[k / BoxTree::width];
-    const std::size_t place = k % BoxTree::width;
-    const Vec2 a = segments[k].piece->start + *segments[k].shift, d = segments[k].piece->end + *segments[k].shift - a;
-    const double square = squared_length(d);
-    leaf.a_x[place] = a.x;
-    leaf.a_y[place] = a.y;
-    leaf.d_x[place] = d.x;
-    leaf.d_y[place] = d.y;
-    leaf.inverse_square[place] = square > 0 ? 1 / square : 0;
-  }
+  segments_ = leaves_of(segments);
 }
 
 std::optional<PieceLocator::Nearest> PieceLocator::nearest(Vec2 p, double reach) const {
