@@ -2,6 +2,7 @@
 #include "app/config.hpp"
 
 #include "app/config_sizing.hpp"
+#include "app/present_names.hpp"
 #include "app/settings.hpp"
 #include "core/angle.hpp"
 #include "core/quoted.hpp"
@@ -369,46 +370,6 @@ void read_log(const Settings& settings, RunOptions& options) {
     if (settings.text("log", "level") == name)
       options.log_level = level;
   options.log_interval = static_cast<int>(settings.integer("log", "interval"));
-}
-
-/// The names of earlier versions.
-constexpr std::string_view old_geometry = "region", old_method = "cvd";
-
-/// Gives an entry that has an old name its present one. @return a warning, or nothing
-std::string use_present_name(IniEntry& entry) {
-  if (entry.section == "meshing" && entry.key == "method" && entry.value == old_method)
-    entry.value = "cvt"; // without a warning: a matter of taste
-  if (entry.section != "shape" || entry.key != old_geometry)
-    return {};
-  entry.key = "geometry";
-  return fmt::format("'region' in [shape] has a new name; write 'geometry = {}' instead", shown(entry.value));
-}
-
-/// Reads the text and the overrides. Keys and values of earlier versions get their present names, with a warning.
-IniDocument read_document(std::string_view text, const std::vector<std::string>& overrides, Diagnostics& problems,
-                          std::vector<std::string>& warnings) {
-  IniDocument document = parse_ini(text, problems);
-  const auto use_present_names = [&](IniDocument& changed) {
-    const bool has_both = changed.find("shape", "geometry") && changed.find("shape", old_geometry);
-    for (IniEntry& entry : changed.entries)
-      if (const int line = entry.line; has_both && entry.section == "shape" && entry.key == old_geometry)
-        problems.add(line,
-                     "'region' in [shape] is the old name of 'geometry', which is set, too; keep only 'geometry'");
-      else if (const std::string warning = use_present_name(entry); !warning.empty())
-        warnings.push_back(problems.place(line) + ": " + warning);
-    if (has_both)
-      std::erase_if(changed.entries,
-                    [](const IniEntry& entry) { return entry.section == "shape" && entry.key == old_geometry; });
-  };
-  use_present_names(document);
-  for (const std::string& text_of_override : overrides) {
-    const bool is_old = text_of_override.starts_with("shape.region=");
-    if (is_old)
-      warnings.push_back("command line: 'shape.region' has a new name; write 'shape.geometry=...' instead");
-    apply_override(document, is_old ? "shape.geometry" + text_of_override.substr(12) : text_of_override, problems);
-  }
-  use_present_names(document); // a method on the command line
-  return document;
 }
 
 /// A contour or a mesh where a config belongs, which newcomers try.

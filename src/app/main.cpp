@@ -128,12 +128,12 @@ ExitCode run(int argc, char** argv, const trime::comm::Communicator& comm, const
   constexpr double patience = 10; // [s] ranks that throw the same error may be that far apart
   trime::app::UserPlaces places;
   try {
-    return trime::app::run_program(argc, argv, comm, run_files, *requests, places);
+    return trime::app::run_program(argc, argv, comm, {run_files, *requests, places});
   } catch (const trime::Error& error) {
     if (!trime::comm::all_arrive(leaving, patience))
-      leave_alone(fmt::format("{} (rank {} alone)", places.explain(error.what()), comm.rank()), error.code());
+      leave_alone(fmt::format("{} (rank {} alone)", places.explain(error.message()), comm.rank()), error.code());
     if (comm.is_root())
-      error.code() == ExitCode::checkpointed ? print_stop(error.what()) : print_error(places.explain(error.what()));
+      error.code() == ExitCode::checkpointed ? print_stop(error.what()) : print_error(places.explain(error.message()));
     return error.code();
   } catch (const std::bad_alloc&) {
     leave_alone(trime::out_of_memory_text(), ExitCode::out_of_memory);

@@ -210,4 +210,10 @@ MapSystem project_contours(const RunOptions& options, std::span<Contour> contour
   return map;
 }
 
+std::optional<Vec2> on_earth(const MapSystem& map, Vec2 place) {
+  if (map.crs.empty() || projection::is_geographic(map.crs))
+    return std::nullopt;
+  return projection::Transform(projection::lon_lat, map.crs).undo(place);
+}
+
 } // namespace trime::app

@@ -6,6 +6,7 @@
 #include "trime/contours/contour.hpp"
 #include "trime/core/log.hpp"
 
+#include <optional>
 #include <span>
 #include <string>
 
@@ -29,5 +30,8 @@ MapSystem project_contours(const RunOptions& options, std::span<contours::Contou
 
 /// @brief Projects one contour and keeps the places in its file in ContourRing::in_file. @throws as project_contours
 void project_contour(contours::Contour& contour, const std::string& plane);
+
+/// Returns longitude and latitude of a place of the mesh, in degrees; nothing if it is in no plane that PROJ knows.
+std::optional<geometry::Vec2> on_earth(const MapSystem& map, geometry::Vec2 place);
 
 } // namespace trime::app

@@ -128,9 +128,9 @@ void check_fixed_points(const shape::RegionShape& shape, Log& log) {
     const geometry::Vec2 p = shape.boundary().periods.wrap(lattice.snap(point.position));
     if (std::binary_search(checked.inside().begin(), checked.inside().end(), p, geometry::lexicographically_less) &&
         !shape.inside(p))
-      throw GeometryError(fmt::format("{}: the fixed point ({:.9g}, {:.9g}) lies outside the shape, {:.6g} from its "
+      throw GeometryError(fmt::format("{}: the fixed point {} lies outside the shape, {:.6g} from its "
                                       "boundary",
-                                      point.label, p.x, p.y, shape.distance_to_boundary(p)));
+                                      point.label, Place(p), shape.distance_to_boundary(p)));
   }
 }
 
@@ -197,7 +197,7 @@ ShapeInput read_input(const Job& job) {
         "container: x from {:.9g} to {:.9g}, y from {:.9g} to {:.9g}, chosen around the shape because [domain] "
         "sets no sides",
         box.min.x, box.max.x, box.min.y, box.max.y);
-  job.log.set_rewriter([&places = job.places](const std::string& message) { return places.explain(message); });
+  job.log.set_rewriter([&places = job.places](const PlacedText& message) { return places.explain(message); });
   input.set_fixed_points(read_fixed_points(options, input, job.comm));
   return input;
 }
@@ -329,8 +329,7 @@ ExitCode MeshRun::run() {
 
 } // namespace
 
-ExitCode run_program(int argc, const char* const* argv, const comm::Communicator& comm, io::RunFiles* files,
-                     SignalRequests& signals, UserPlaces& places) {
+ExitCode run_program(int argc, const char* const* argv, const comm::Communicator& comm, const Process& process) {
   TimerTable timers(&comm.counters());
   const CommandLine line = parse_command_line(argc, argv);
   if (line.action == Action::help || line.action == Action::help_config || line.action == Action::version) {
@@ -345,7 +344,7 @@ ExitCode run_program(int argc, const char* const* argv, const comm::Communicator
   }
   if (line.action == Action::convert) {
     Log log(LogLevel::info, comm.is_root());
-    convert(line, files, comm, log);
+    convert(line, process.files, comm, log);
     return ExitCode::done;
   }
   const std::string config_text = read_shared(line.config, comm);
@@ -359,7 +358,7 @@ ExitCode run_program(int argc, const char* const* argv, const comm::Communicator
   if (line.action == Action::mesh)
     timers.on_section([&log](const std::string& name) { log.phase(name == "measure" ? "sweeps" : name); });
   options.mesh.star_tests = of_root(options.mesh.star_tests, comm);
-  const Job job{comm, line, config_text, options, files, signals, places, log, timers};
+  const Job job{comm, line, config_text, options, process.files, process.signals, process.places, log, timers};
   MeshRun run(job);
   return job.is_run() ? run.run() : run.preview();
 }

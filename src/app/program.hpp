@@ -14,12 +14,15 @@ namespace trime::app {
 class SignalRequests;
 class UserPlaces;
 
+/// The program shares these with main().
+struct Process {
+  io::RunFiles* files;     ///< notes which files exist, for a signal handler; may be null
+  SignalRequests& signals; ///< what signals ask for
+  UserPlaces& places;      ///< gets what main() needs to explain an error that is thrown
+};
+
 /// @brief Runs the program. @note Collective.
-/// @param files notes which files exist, for a signal handler; may be null
-/// @param signals what signals ask for
-/// @param places gets what the caller needs to explain an error that is thrown
 /// @throws Error on all ranks together
-ExitCode run_program(int argc, const char* const* argv, const comm::Communicator& comm, io::RunFiles* files,
-                     SignalRequests& signals, UserPlaces& places);
+ExitCode run_program(int argc, const char* const* argv, const comm::Communicator& comm, const Process& process);
 
 } // namespace trime::app

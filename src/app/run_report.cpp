@@ -75,8 +75,9 @@ std::string size_text(const SizeSummary& size) {
 std::string quality_text(const mesh::QualitySummary& q) {
   std::string text = "Quality    median      mean       max  half-mean       std   (1 is equilateral)\n";
   text += summary_line("alpha", q.alpha) + summary_line("beta", q.beta);
-  text += fmt::format("  smallest angle {:.2f} degrees; worst triangle at ({:.10g}, {:.10g})\n", q.min_angle_degrees,
-                      q.worst_place.x, q.worst_place.y);
+  text += fmt::format("  smallest angle {:.2f} degrees; worst triangle at {}\n", q.min_angle_degrees,
+                      Place(q.worst_place, 10));
+  text += fmt::format("  shortest edge {:.6g} at {}\n", q.shortest_edge, Place(q.shortest_place, 10));
   text += fmt::format("  edge length over wanted length: mean {:.4f}, std {:.4f}\n", q.size_mean, q.size_std);
   std::int64_t count = 0;
   for (const std::int64_t bin : q.alpha_histogram)
@@ -96,10 +97,10 @@ std::string bad_triangles_text(const mesh::QualitySummary& q) {
   std::string text = fmt::format("Triangles with alpha above 2: {}{}\n", q.bad_triangles,
                                  std::ssize(q.worst_triangles) < q.bad_triangles ? ", the worst:" : "");
   for (const mesh::BadTriangle& one : q.worst_triangles) {
-    text += fmt::format("  {:>9} at ({:.10g}, {:.10g}): ", ratio_text(one.alpha), one.place.x, one.place.y);
-    text += one.corner_degrees > 0 ? fmt::format("at the corner ({:.10g}, {:.10g}) of {:.3g} degrees\n", one.corner.x,
-                                                 one.corner.y, one.corner_degrees)
-                                   : "no sharp corner near\n";
+    text += fmt::format("  {:>9} at {}: ", ratio_text(one.alpha), Place(one.place, 10));
+    text += one.corner_degrees > 0
+                ? fmt::format("at the corner {} of {:.3g} degrees\n", Place(one.corner, 10), one.corner_degrees)
+                : "no sharp corner near\n";
   }
   return text;
 }

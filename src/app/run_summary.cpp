@@ -53,11 +53,19 @@ std::string size_text(const SizeSummary& size) {
 
 std::string quality_text(const mesh::QualitySummary& q) {
   std::string text =
-      fmt::format("alpha median {:.4f}, mean {:.4f}, worst {:.4g} at ({:.10g}, {:.10g}); smallest angle {:.2f} degrees",
-                  q.alpha.median, q.alpha.mean, q.alpha.max, q.worst_place.x, q.worst_place.y, q.min_angle_degrees);
+      fmt::format("alpha median {:.4f}, mean {:.4f}, worst {:.4g} at {}; smallest angle {:.2f} degrees", q.alpha.median,
+                  q.alpha.mean, q.alpha.max, Place(q.worst_place, 10), q.min_angle_degrees);
   return q.bad_triangles == 0
              ? text
              : text + fmt::format("; {} with alpha above 2", counted(q.bad_triangles, "triangle", "triangles"));
+}
+
+/// The shortest edge, which limits the time step of many solvers.
+std::string shortest_text(const mesh::QualitySummary& q, const MapSystem& map) {
+  std::string text = fmt::format("edge of length {:.6g} at {}", q.shortest_edge, Place(q.shortest_place, 10));
+  if (const auto place = on_earth(map, q.shortest_place))
+    text += fmt::format("; longitude {:.8g}, latitude {:.8g}", place->x, place->y);
+  return text;
 }
 
 /// Counts the features of the boundary that the run changed.
@@ -142,7 +150,9 @@ std::string run_summary(const RunFacts& facts) {
   const int sweeps = result.history.empty() ? 0 : result.history.back().sweep;
   std::string text = line("Run", start_text(facts.provenance)) + line("Shape", shape_text(facts.provenance)) +
                      line("Mesh", mesh_text(result)) + line("Size", size_text(facts.size)) +
-                     line("Quality", quality_text(result.quality)) + line("Boundary", boundary_text(result.features)) +
+                     line("Quality", quality_text(result.quality)) +
+                     line("Shortest", shortest_text(result.quality, facts.provenance.map)) +
+                     line("Boundary", boundary_text(result.features)) +
                      line("Names", names_text(facts.provenance.boundary, facts.part_edges)) +
                      line("Sweeps", fmt::format("{}: {}", sweeps, sweep::to_string(result.stop_reason))) +
                      line("Checks", checks_text(result.checks)) +

@@ -88,9 +88,9 @@ geometry::Box automatic_container(const RunOptions& options, std::span<const con
   return geometry::container_around(shape::Region::parse(options.geometry, names).box(boxes));
 }
 
-/// @param contour of a part that is one @param place becomes what its vertices undergo @param places gets it, on rank 0
-shape::Part build_part(const PartOptions& part, const contours::Contour& contour, const geometry::Frame& frame,
-                       const comm::Communicator& comm, contours::Normalization& place, UserPlaces& places) {
+/// @param contour of a part that is one @param place what its vertices undergo
+shape::Part build_part(const PartOptions& part, const contours::Contour& contour, const contours::Normalization& place,
+                       const geometry::Frame& frame) {
   if (part.type == "rectangle")
     return shape::Part::rectangle(part.name, part.box, frame);
   if (part.type == "circle")
@@ -101,12 +101,7 @@ shape::Part build_part(const PartOptions& part, const contours::Contour& contour
     const Formula sdf(part.sdf, fmt::format("'sdf' in [shape.{}]", part.name));
     return shape::traced_part(part.name, tracing::ExpressionShape(sdf), frame);
   }
-  if (part.normalize)
-    place = contours::fit_to_container(contour, frame.container());
-  shape::Part made = shape::Part::contour(part.name, contour, place, frame);
-  if (comm.is_root())
-    places.add(contour, place);
-  return made;
+  return shape::Part::contour(part.name, contour, place, frame);
 }
 
 } // namespace
@@ -136,7 +131,11 @@ ShapeInput read_shape(const RunOptions& given, ShapeUse use, const comm::Communi
   for (std::size_t k = 0; k < options.parts.size(); ++k) {
     const PartOptions& part = options.parts[k];
     contours::Normalization place;
-    parts.push_back(build_part(part, contours[k], frame, comm, place, found));
+    if (part.normalize)
+      place = contours::fit_to_container(contours[k], frame.container());
+    parts.push_back(build_part(part, contours[k], place, frame));
+    if (part.type == "contour" && comm.is_root())
+      found.add(contours[k], place);
     contours[k] = {};
     if (part.name == options.fixed_points.normalize_with)
       fixed_points_place = place;

@@ -4,10 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <optional>
-#include <string_view>
 
 namespace trime::app {
 namespace {
@@ -18,28 +15,6 @@ using geometry::Vec2;
 constexpr double farthest = 0.25;
 /// [extent of the contour] The lattice moves a vertex by less.
 constexpr double same_place = 1e-10;
-
-bool is_name(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-}
-
-/// "(x, y)" at the start of the text; its length too.
-struct FoundPlace {
-  Vec2 place;
-  std::size_t length;
-};
-std::optional<FoundPlace> place_at(std::string_view text) {
-  FoundPlace found{};
-  const char *at = text.data() + 1, *end = text.data() + text.size();
-  const auto x = std::from_chars(at, end, found.place.x);
-  if (x.ec != std::errc{} || !std::string_view(x.ptr, end).starts_with(", "))
-    return std::nullopt;
-  const auto y = std::from_chars(x.ptr + 2, end, found.place.y);
-  if (y.ec != std::errc{} || y.ptr == end || *y.ptr != ')' || !std::isfinite(found.place.x + found.place.y))
-    return std::nullopt;
-  found.length = static_cast<std::size_t>(y.ptr + 1 - text.data());
-  return found;
-}
 
 } // namespace
 
@@ -119,20 +94,8 @@ std::vector<std::int32_t> UserPlaces::ring_lines(const geometry::Boundary& bound
   return lines;
 }
 
-std::string UserPlaces::explain(const std::string& message) const {
-  if (contours_.empty())
-    return message;
-  std::string text;
-  for (std::size_t at = 0; at < message.size();) {
-    const bool starts = message[at] == '(' && (at == 0 || !is_name(message[at - 1])); // no argument list
-    const auto found = starts ? place_at(std::string_view(message).substr(at)) : std::nullopt;
-    const std::size_t length = found ? found->length : 1;
-    text.append(message, at, length);
-    if (found)
-      text += name_of(found->place);
-    at += length;
-  }
-  return text;
+std::string UserPlaces::explain(const PlacedText& message) const {
+  return message.with_notes([this](double x, double y) { return name_of({x, y}); });
 }
 
 } // namespace trime::app

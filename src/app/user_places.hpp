@@ -3,6 +3,7 @@
 #pragma once
 
 #include "trime/contours/contour.hpp"
+#include "trime/core/error.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/geometry/vec2.hpp"
 
@@ -26,13 +27,13 @@ public:
   /// @param place what the vertices undergo on their way into the container
   void add(const contours::Contour& contour, const contours::Normalization& place);
 
-  /// @brief The message with `[FILE:LINE]`, the nearest vertex, behind each place "(x, y)" in it; with
-  /// `[FILE:LINE: (x, y)]`, in the coordinates of the file, if the contour is normalised; if it is projected, these are
+  /// @brief The message with `[FILE:LINE]`, the nearest vertex, behind each of its places; with `[FILE:LINE: (x, y)]`,
+  /// in the coordinates of the file, if the contour is normalised; if it is projected, these are
   /// the coordinates of that vertex.
   ///
   /// Places that are far from all contours stay as they are, and so does the whole without contours. O(vertices) for
   /// each place.
-  std::string explain(const std::string& message) const;
+  std::string explain(const PlacedText& message) const;
 
   /// @brief For each loop of the boundary the line of the file on which its ring begins: that of the first vertex of
   /// the loop that is one of a contour; 0 if none is. O(vertices log(vertices))

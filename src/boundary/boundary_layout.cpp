@@ -106,9 +106,9 @@ private:
   void check_size(double t, Vec2 p) const {
     const double least = BoundaryRules::shortest_in_steps * lattice_.step(), h = metric_.size(t);
     if (h < least)
-      throw GeometryError(fmt::format("element size on the boundary at ({}, {}): expected at least {} (the resolution "
+      throw GeometryError(fmt::format("element size on the boundary at {}: expected at least {} (the resolution "
                                       "of the container), found {}; use a larger edge length or fewer points",
-                                      p.x, p.y, least, h));
+                                      Place(p, 0), least, h));
   }
 
   const LoopMetric& metric_;

@@ -302,19 +302,19 @@ void BoundaryRefiner::fail(const Cut& cut) const {
   if (cut.intruder >= 0) {
     const Vec2 p = boundary_.periods.nearest_image(sites_[cut.intruder].position, from);
     const double gap = std::sqrt(std::fmin(geometry::squared_length(p - from), geometry::squared_length(p - to)));
-    cause = fmt::format("another part of the boundary passes at a distance of {:.3g}, at ({:.17g}, {:.17g})", gap, p.x,
-                        p.y);
+    cause = fmt::format("another part of the boundary passes at a distance of {:.3g}, at {}", gap, Place(p, 17));
   }
   if (cut.point >= 0) {
     const Vec2 p = inside_[static_cast<std::size_t>(cut.point)];
-    cause = fmt::format("the fixed point ({:.17g}, {:.17g}) lies very near to it, but not on it", p.x, p.y);
+    cause = fmt::format("the fixed point {} lies very near to it, but not on it", Place(p, 17));
   }
   throw GeometryError(fmt::format(
-      "the boundary is too narrow near ({:.17g}, {:.17g}): {}; expected parts that are at least {:.3g} apart (the "
+      "the boundary is too narrow near {}: {}; expected parts that are at least {:.3g} apart (the "
       "resolution of the container), but they are still too near after {} rounds of division, with a boundary edge of "
       "{:.3g}. More points do not help: simplify the contour there, move its parts clearly apart or together, or make "
       "the container smaller",
-      from.x, from.y, cause, BoundaryRules::shortest_in_steps * lattice_.step(), rounds_, geometry::length(to - from)));
+      Place(from, 17), cause, BoundaryRules::shortest_in_steps * lattice_.step(), rounds_,
+      geometry::length(to - from)));
 }
 
 } // namespace trime::boundary

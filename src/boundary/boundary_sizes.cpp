@@ -28,9 +28,9 @@ constexpr std::size_t samples_in_a_row = 1024; // that are counted together
         place = piece.start;
       }
     }
-  throw GeometryError(fmt::format("the element size near ({}, {}) is {}: the boundary would get more than {} sites; "
+  throw GeometryError(fmt::format("the element size near {} is {}: the boundary would get more than {} sites; "
                                   "ask for fewer points or a larger edge length",
-                                  place.x, place.y, h, BoundaryRules::most_samples / 2));
+                                  Place(place, 0), h, BoundaryRules::most_samples / 2));
 }
 
 } // namespace

@@ -238,8 +238,8 @@ std::vector<std::string> describe(const FeatureReport& report) {
   if (!report.sharp_corners.empty()) {
     std::string list;
     for (std::size_t k = 0; k < std::min(most_listed, report.sharp_corners.size()); ++k)
-      list += fmt::format("{}{:.1f} at ({:.6g}, {:.6g})", k == 0 ? "" : ", ", report.sharp_corners[k].degrees,
-                          report.sharp_corners[k].place.x, report.sharp_corners[k].place.y);
+      list += fmt::format("{}{:.1f} at {}", k == 0 ? "" : ", ", report.sharp_corners[k].degrees,
+                          Place(report.sharp_corners[k].place, 6));
     lines.push_back(fmt::format("{} of less than {:g} degrees, where smaller angles cannot be avoided: {}{}",
                                 counted(std::ssize(report.sharp_corners), "corner", "corners"),
                                 FeatureReport::sharp_angle, list,

@@ -122,10 +122,10 @@ void FixedPoints::take_corners() {
     // corner.
     for (const Vec2 shift : images_of(boundary.periods))
       if (const std::optional<Vec2> q = on_curve.first_near(p + shift))
-        throw GeometryError(fmt::format(
-            "{}: the fixed point ({:.12g}, {:.12g}) on the boundary is {:.2g} from that of {}: expected the same point "
-            "or a distance above {:.2g}; take out one of them",
-            label(p), p.x, p.y, geometry::length(*q - (p + shift)), label(*q), tolerance_));
+        throw GeometryError(
+            fmt::format("{}: the fixed point {} on the boundary is {:.2g} from that of {}: expected the same point "
+                        "or a distance above {:.2g}; take out one of them",
+                        label(p), Place(p, 12), geometry::length(*q - (p + shift)), label(*q), tolerance_));
     if (!cornered)
       cornered.emplace(boundary, pieces, tolerance_);
     cornered->add_corner(p);
@@ -148,10 +148,9 @@ void FixedPoints::check_inside(const BoundaryGuard& guard) const {
     double distance = std::numeric_limits<double>::infinity();
     for (const Vec2 shift : images_of(given_boundary_.periods))
       distance = std::fmin(distance, pieces.distance(p + shift));
-    throw GeometryError(
-        fmt::format("{}: the fixed point ({:.9g}, {:.9g}) lies outside the shape, {:.6g} from its boundary; "
-                    "expected a point inside, or on the boundary to within {:.2g}",
-                    label(p), p.x, p.y, distance, tolerance_));
+    throw GeometryError(fmt::format("{}: the fixed point {} lies outside the shape, {:.6g} from its boundary; "
+                                    "expected a point inside, or on the boundary to within {:.2g}",
+                                    label(p), Place(p), distance, tolerance_));
   }
 }
 
@@ -229,9 +228,8 @@ void FixedPoints::warn_of_close_ones(const BoundaryGuard& guard, const sizing::S
     return;
   const std::string what =
       close.to_boundary
-          ? fmt::format("({:.9g}, {:.9g}) is {:.3g} from the boundary", close.first.x, close.first.y, close.distance)
-          : fmt::format("({:.9g}, {:.9g}) and ({:.9g}, {:.9g}) are {:.3g} apart", close.first.x, close.first.y,
-                        close.second.x, close.second.y, close.distance);
+          ? fmt::format("{} is {:.3g} from the boundary", Place(close.first), close.distance)
+          : fmt::format("{} and {} are {:.3g} apart", Place(close.first), Place(close.second), close.distance);
   log.warning("{} of {} fixed points inside are nearer to each other or to the boundary than the local size: expect "
               "small angles there. The nearest: {}, {:.2g} of the size",
               count, inside_.size(), what, close.least);

@@ -25,9 +25,9 @@ double signed_turn(const Piece& before, const Piece& after) {
 }
 
 [[noreturn]] void fail_for_knots(Vec2 p, double h) {
-  throw GeometryError(fmt::format("the element size near ({}, {}) is {}: the boundary would get more than {} sites; "
+  throw GeometryError(fmt::format("the element size near {} is {}: the boundary would get more than {} sites; "
                                   "ask for fewer points or a larger edge length",
-                                  p.x, p.y, h, BoundaryRules::most_samples / 2));
+                                  Place(p, 0), h, BoundaryRules::most_samples / 2));
 }
 
 } // namespace
@@ -120,9 +120,9 @@ SizePair LoopMetric::add_piece(LocalIndex i, SizePair sizes, Walk& walk, std::ve
   const Piece& piece = loop_.pieces[i];
   const double whole = piece.length();
   if (!(whole > 0))
-    throw GeometryError(fmt::format("boundary piece {} at ({}, {}) has no length: expected pieces of positive length; "
+    throw GeometryError(fmt::format("boundary piece {} at {} has no length: expected pieces of positive length; "
                                     "remove the repeated point",
-                                    i, piece.start.x, piece.start.y));
+                                    i, Place(piece.start, 0)));
   double s = 0, t = 0;
   while (s < whole) {
     const double h = sizes.size;

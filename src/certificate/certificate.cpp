@@ -297,6 +297,54 @@ mesh::Check check(const char* name, std::int64_t expected, std::int64_t found, c
   return {name, static_cast<double>(expected), static_cast<double>(found), expected == found, meaning};
 }
 
+/// The checks of the triangles, and of what is to be written.
+mesh::Checks triangle_checks(const Counts& counts, const mesh::DistributedMesh& mesh, std::int64_t chords,
+                             const Expectation& expectation) {
+  const std::int64_t sides = 3 * counts.triangles + chords; // of triangles and facets: odd numbers are wrong, too
+  const bool changed = expectation.topology_changed;
+  const auto written = [](bool is_same, GlobalId total) { return is_same ? total : -1; };
+  return {check("incomplete_fans", 0, counts.incomplete, "manifold: each site has one unbroken fan of triangles"),
+          check("star_listings", 3 * counts.triangles, counts.listings, "every triangle is listed by its three stars"),
+          check("star_disagreements", 0, 3 * counts.hash_of_triangles != counts.hash_of_listings,
+                "all three stars list the same triangle"),
+          check("written_points", counts.points,
+                written(counts.hash_of_written_points == counts.hash_of_points, mesh.point_slab.total),
+                "the points to be written are the proven ones, bit for bit and in this order"),
+          check("written_triangles", counts.triangles,
+                written(counts.hash_of_written == counts.hash_of_triangles, mesh.triangle_slab.total),
+                "the triangles to be written are these"),
+          check("written_facets", chords,
+                written(counts.hash_of_written_facets == counts.hash_of_facets, mesh.facet_slab.total),
+                "the facets to be written are these, with their tags"),
+          check("not_positive", 0, counts.not_positive, "triangles that are not counter-clockwise"),
+          check("euler_characteristic", (changed ? expectation.meshed : expectation.shape).euler_characteristic(),
+                counts.points - counts.edges + counts.triangles,
+                changed ? "of the simplified shape; in the plane, components minus holes"
+                        : "of the shape as it was given; in the plane, components minus holes"),
+          {"edge_count", 0.5 * static_cast<double>(sides), static_cast<double>(counts.edges), sides == 2 * counts.edges,
+           "inner edges have two triangles, facets one"},
+          check("not_delaunay", 0, counts.not_delaunay, "edges that are not locally Delaunay (exact test)"),
+          check("boundary_segments", chords, counts.facets, "chords that are edges of the mesh")};
+}
+
+/// Adds the checks of the points that the mesh must have, and of its area.
+void add_point_checks(const Counts& counts, const StageView& view, std::int64_t junctions, mesh::Checks& checks) {
+  checks.push_back(
+      check("corners", view.polygon.corners, counts.corners, "corners that are vertices, bit for bit on the lattice"));
+  const std::int64_t kept = junctions - view.polygon.left_out;
+  checks.push_back(
+      {"turns_kept", static_cast<double>(std::max<std::int64_t>(0, kept)), static_cast<double>(counts.junctions),
+       counts.junctions >= kept,
+       "vertices where the curves turn by more than corner_angle or parts meet: at least all but those left out"});
+  if (!view.fixed.empty())
+    checks.push_back(check("fixed_points", static_cast<std::int64_t>(view.fixed.size()), counts.fixed,
+                           "fixed points that are vertices, bit for bit on the lattice"));
+  checks.push_back(check("unused_points", 0, counts.unused, "points without a triangle"));
+  const ExactArea polygon = polygon_area(view.polygon, view.lattice);
+  checks.push_back({"area", polygon.value(view.lattice), counts.area.value(view.lattice),
+                    polygon.twice == counts.area.twice, "triangles fill the boundary polygon (exact integers)"});
+}
+
 } // namespace
 
 mesh::Checks certify(const StageView& view, const decomposition::Numbering& numbering, const Expectation& expectation,
@@ -308,49 +356,9 @@ mesh::Checks certify(const StageView& view, const decomposition::Numbering& numb
   view.state.comm().sum(packed);
   counts = Counts::unpack(packed);
 
-  const std::int64_t chords = static_cast<std::int64_t>(view.polygon.sites.size());
-  const ExactArea polygon = polygon_area(view.polygon, view.lattice);
-  mesh::Checks checks;
-  checks.push_back(
-      check("incomplete_fans", 0, counts.incomplete, "manifold: each site has one unbroken fan of triangles"));
-  checks.push_back(
-      check("star_listings", 3 * counts.triangles, counts.listings, "every triangle is listed by its three stars"));
-  checks.push_back(check("star_disagreements", 0, 3 * counts.hash_of_triangles != counts.hash_of_listings,
-                         "all three stars list the same triangle"));
-  checks.push_back(check("written_points", counts.points,
-                         counts.hash_of_written_points == counts.hash_of_points ? mesh.point_slab.total : -1,
-                         "the points to be written are the proven ones, bit for bit and in this order"));
-  checks.push_back(check("written_triangles", counts.triangles,
-                         counts.hash_of_written == counts.hash_of_triangles ? mesh.triangle_slab.total : -1,
-                         "the triangles to be written are these"));
-  checks.push_back(check("written_facets", chords,
-                         counts.hash_of_written_facets == counts.hash_of_facets ? mesh.facet_slab.total : -1,
-                         "the facets to be written are these, with their tags"));
-  checks.push_back(check("not_positive", 0, counts.not_positive, "triangles that are not counter-clockwise"));
-  const bool changed = expectation.topology_changed;
-  checks.push_back(check("euler_characteristic",
-                         (changed ? expectation.meshed : expectation.shape).euler_characteristic(),
-                         counts.points - counts.edges + counts.triangles,
-                         changed ? "of the simplified shape; in the plane, components minus holes"
-                                 : "of the shape as it was given; in the plane, components minus holes"));
-  const std::int64_t sides = 3 * counts.triangles + chords; // of triangles and facets: odd numbers are wrong, too
-  checks.push_back({"edge_count", 0.5 * static_cast<double>(sides), static_cast<double>(counts.edges),
-                    sides == 2 * counts.edges, "inner edges have two triangles, facets one"});
-  checks.push_back(check("not_delaunay", 0, counts.not_delaunay, "edges that are not locally Delaunay (exact test)"));
-  checks.push_back(check("boundary_segments", chords, counts.facets, "chords that are edges of the mesh"));
-  checks.push_back(
-      check("corners", view.polygon.corners, counts.corners, "corners that are vertices, bit for bit on the lattice"));
-  const std::int64_t kept = std::ssize(junctions) - view.polygon.left_out;
-  checks.push_back(
-      {"turns_kept", static_cast<double>(std::max<std::int64_t>(0, kept)), static_cast<double>(counts.junctions),
-       counts.junctions >= kept,
-       "vertices where the curves turn by more than corner_angle or parts meet: at least all but those left out"});
-  if (!view.fixed.empty())
-    checks.push_back(check("fixed_points", static_cast<std::int64_t>(view.fixed.size()), counts.fixed,
-                           "fixed points that are vertices, bit for bit on the lattice"));
-  checks.push_back(check("unused_points", 0, counts.unused, "points without a triangle"));
-  checks.push_back({"area", polygon.value(view.lattice), counts.area.value(view.lattice),
-                    polygon.twice == counts.area.twice, "triangles fill the boundary polygon (exact integers)"});
+  mesh::Checks checks =
+      triangle_checks(counts, mesh, std::ssize(view.polygon.sites), expectation);
+  add_point_checks(counts, view, std::ssize(junctions), checks);
   const BoundaryTruth truth{
       expectation.shape,      expectation.meshed, view.polygon,     view.size,
       expectation.asked,      view.lattice,       expectation.side, counts.area.value(view.lattice),

@@ -24,7 +24,7 @@ bool near(double expected, double found, double tolerance) {
 }
 
 struct Measures {
-  double alpha, beta, angle;
+  double alpha, beta, angle, shortest;
 };
 
 /// By the sides: alpha = R/(2r), the ratio of the longest and the shortest, the smallest angle [degrees].
@@ -41,7 +41,7 @@ Measures measure(const std::array<Point, 3>& corners) {
   const long double circumradius = side[0] * side[1] * side[2] / (4 * area), inradius = 2 * area / perimeter;
   const long double sine = std::min(1.0L, 2 * area / (side[1] * side[2]));
   return {static_cast<double>(std::max(1.0L, circumradius / (2 * inradius))), static_cast<double>(side[2] / side[0]),
-          static_cast<double>(std::asin(sine) * 180 / 3.14159265358979323846L)};
+          static_cast<double>(std::asin(sine) * 180 / 3.14159265358979323846L), static_cast<double>(side[0])};
 }
 
 /// Mean, half-mean, standard deviation, maximum and median of a ratio.
@@ -96,7 +96,7 @@ void check_histogram(const StoredFile& file, const std::vector<double>& alpha, T
 void check_quality(const StoredFile& file, const Mesh& mesh, Report& report) {
   Tally alpha_wrong, beta_wrong, summary;
   std::vector<double> alpha, beta;
-  double angle = 60;
+  double angle = 60, shortest = std::numeric_limits<double>::infinity();
   std::int64_t bad = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Measures m = measure(mesh.corners(mesh.triangles[t]));
@@ -110,6 +110,7 @@ void check_quality(const StoredFile& file, const Mesh& mesh, Report& report) {
     alpha.push_back(m.alpha);
     beta.push_back(m.beta);
     angle = std::min(angle, m.angle);
+    shortest = std::min(shortest, m.shortest);
     bad += m.alpha > 2;
   }
   check_histogram(file, alpha, summary);
@@ -117,6 +118,8 @@ void check_quality(const StoredFile& file, const Mesh& mesh, Report& report) {
   check_ratio(file, "beta", std::move(beta), summary);
   if (!near(angle, file.number("/trime_mpi/quality", "min_angle_degrees").value_or(-1), sum_tolerance))
     summary.note([&] { return fmt::format("min_angle_degrees: expected {:.12g}", angle); });
+  if (!near(shortest, file.number("/trime_mpi/quality", "shortest_edge").value_or(shortest), sum_tolerance))
+    summary.note([&] { return fmt::format("shortest_edge: expected {:.12g}", shortest); }); // absent in older files
   if (file.number("/trime_mpi/quality", "bad_triangles").value_or(-1) != static_cast<double>(bad))
     summary.note([&] { return fmt::format("bad_triangles: expected {}", bad); });
   report.none("alpha", alpha_wrong, "triangles whose `alpha` is not R/(2r)");

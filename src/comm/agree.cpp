@@ -34,7 +34,9 @@ void agree(const Communicator& comm, const std::optional<Error>& error) {
   if (failing == comm.size())
     return;
   const int root = static_cast<int>(failing);
-  std::string text = error ? std::string(1, static_cast<char>(error->code())) + error->what() : std::string();
+  std::string text;
+  if (error)
+    text.append(1, static_cast<char>(error->code())).append(error->message().formatted());
   text = comm.broadcast(std::move(text), root);
   const std::string suffix = root > 0 ? fmt::format(" (rank {})", root) : "";
   throw_error(static_cast<ExitCode>(text[0]), text.substr(1) + suffix);

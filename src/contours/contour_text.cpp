@@ -223,13 +223,13 @@ void WordLines::refuse(const std::string& what, const std::string& hint) const {
       fmt::format("{}:{}: expected {}, found {}{}{}", source_, number_, what, found, hint.empty() ? "" : "; ", hint));
 }
 
-void check_coordinates(Vec2 p, const std::string& source, int line) {
+void check_coordinates(Vec2 p, const std::string& source, int line, const std::string& feature) {
   constexpr double most = ContourRules::largest_coordinate;
   if (std::fabs(p.x) <= most && std::fabs(p.y) <= most)
     return;
-  throw GeometryError(
-      fmt::format("{}:{}: expected finite coordinates of at most {:g}, found ({}, {}){}", source, line, most, p.x, p.y,
-                  std::isnan(p.x) && std::isnan(p.y) ? "; between rings write a blank line, or a line with '>'" : ""));
+  throw GeometryError(fmt::format(
+      "{}:{}{}: expected finite coordinates of at most {:g}, found ({}, {}){}", source, line, feature, most, p.x, p.y,
+      std::isnan(p.x) && std::isnan(p.y) ? "; between rings write a blank line, or a line with '>'" : ""));
 }
 
 } // namespace trime::contours

@@ -89,7 +89,7 @@ private:
 
 /// @brief Refuses coordinates that are not finite or larger than ContourRules::largest_coordinate.
 /// @throws GeometryError `source:line: ...`
-void check_coordinates(geometry::Vec2 p, const std::string& source, int line);
+void check_coordinates(geometry::Vec2 p, const std::string& source, int line, const std::string& feature = {});
 
 /// @brief Returns the rings of the polygons of a shapefile, and of lines that form rings. The line number of a vertex
 /// is the number of its record, from 1. NAME.shx must be next to it; NAME.prj names the reference system.

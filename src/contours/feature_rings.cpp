@@ -57,14 +57,16 @@ void FeatureRings::has_attribute(const std::string& name) {
     attributes_.insert(name);
 }
 
-void FeatureRings::end_feature(const std::optional<std::string>& value) {
+void FeatureRings::end_feature(const std::optional<std::string>& value, const std::string& label) {
   if (of_feature_.empty())
     return;
   const int number = number_of(value);
+  builder_.set_feature(label);
   for (Chain& chain : of_feature_) {
     for (const FilePoint& vertex : chain.vertices) // before ends are compared
-      check_coordinates(vertex.position, contour_.source, vertex.line);
+      check_coordinates(vertex.position, contour_.source, vertex.line, label);
     if (chain.kind == Kind::line && chain.vertices.front().position != chain.vertices.back().position) {
+      chain.label = label;
       open_lines_.push_back(std::move(chain));
       open_markers_.push_back(number);
       continue;
@@ -74,6 +76,7 @@ void FeatureRings::end_feature(const std::optional<std::string>& value) {
     builder_.end_ring();
   }
   of_feature_.clear();
+  builder_.set_feature({});
 }
 
 void FeatureRings::finish(const char* expected) {
@@ -102,13 +105,15 @@ int FeatureRings::number_of(const std::optional<std::string>& value) {
 
 /// An even number of lines ends at each place.
 void FeatureRings::check_ends() const {
-  std::vector<FilePoint> ends;
+  struct End : FilePoint {
+    const Chain* chain;
+  };
+  std::vector<End> ends;
   for (const Chain& chain : open_lines_)
-    ends.insert(ends.end(), {chain.vertices.front(), chain.vertices.back()});
-  std::stable_sort(ends.begin(), ends.end(), [](const FilePoint& a, const FilePoint& b) {
-    return geometry::lexicographically_less(a.position, b.position);
-  });
-  const FilePoint* first = nullptr;
+    ends.insert(ends.end(), {{chain.vertices.front(), &chain}, {chain.vertices.back(), &chain}});
+  std::stable_sort(ends.begin(), ends.end(),
+                   [](const End& a, const End& b) { return geometry::lexicographically_less(a.position, b.position); });
+  const End* first = nullptr;
   for (std::size_t k = 0, next = 0; k < ends.size(); k = next) {
     next = k + 1;
     while (next < ends.size() && ends[next].position == ends[k].position)
@@ -117,10 +122,10 @@ void FeatureRings::check_ends() const {
       first = &ends[k];
   }
   if (first != nullptr)
-    throw GeometryError(
-        fmt::format("{}:{}: expected polygons, or lines that end where they start or where another line ends; found a "
-                    "line whose end at ({}, {}) no other line shares: close the ring, or make it a polygon",
-                    contour_.source, first->line, first->position.x, first->position.y));
+    throw GeometryError(fmt::format(
+        "{}:{}{}: expected polygons, or lines that end where they start or where another line ends; found a "
+        "line whose end at ({}, {}) no other line shares: close the ring, or make it a polygon",
+        contour_.source, first->line, first->chain->label, first->position.x, first->position.y));
 }
 
 void FeatureRings::join_lines() {

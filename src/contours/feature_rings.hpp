@@ -29,9 +29,11 @@ public:
   void skip(const std::string& type, int line);
   /// Records the name of an attribute that some feature has, whatever its value.
   void has_attribute(const std::string& name);
-  /// @brief Ends the current feature. @param value the value of the attribute, if the feature has it
+  /// @brief Ends the current feature.
+  /// @param value the value of the attribute, if the feature has it
+  /// @param label for messages, behind the line, such as " (feature 3)"
   /// @throws GeometryError for coordinates that are too large, or a ring with fewer than three distinct vertices
-  void end_feature(const std::optional<std::string>& value = {});
+  void end_feature(const std::optional<std::string>& value = {}, const std::string& label = {});
   /// @brief Joins open lines and gives the rings their markers.
   /// @param expected what the file should contain, for the message if it has no vertex
   /// @throws GeometryError also if lines stay open; ConfigError if no feature has the attribute
@@ -41,6 +43,7 @@ private:
   struct Chain {
     Kind kind;
     std::vector<FilePoint> vertices;
+    std::string label = {}; // of an open line
   };
 
   int number_of(const std::optional<std::string>& value);

@@ -2,6 +2,7 @@
 // GeoJSON as a stream, so that every vertex knows its line and a large file is not kept as a tree.
 #include "contours/contour_text.hpp"
 #include "contours/feature_rings.hpp"
+#include "core/quoted.hpp"
 #include "trime/contours/contour.hpp"
 #include "trime/core/error.hpp"
 
@@ -68,10 +69,16 @@ public:
         objects_[2].key == "name")
       contour_.crs = text;
     take_attribute([&] { return text; });
+    if (is_attribute() && objects_.back().key == "name")
+      feature_name_ = text;
     return other_value();
   }
   bool start_object(std::size_t) {
     other_value();
+    if (objects_.size() == 1 && is_feature_at(1)) {
+      ++feature_;
+      feature_name_.clear();
+    }
     Object object;
     object.is_property = !objects_.empty() && (objects_.back().is_property || objects_.back().key == "properties");
     objects_.push_back(std::move(object));
@@ -91,7 +98,7 @@ public:
     if (object.type == "Feature" && is_feature_at(objects_.size())) {
       for (const std::string& name : object.attributes)
         rings_.has_attribute(name);
-      rings_.end_feature(object.attribute);
+      rings_.end_feature(object.attribute, feature_label());
     }
     return true;
   }
@@ -149,7 +156,16 @@ private:
   };
 
   [[noreturn]] void refuse(int line, const std::string& what) const {
-    throw GeometryError(fmt::format("{}:{}: {}", contour_.source, line, what));
+    throw GeometryError(
+        fmt::format("{}:{}{}: {}", contour_.source, line, objects_.size() > 1 ? feature_label() : "", what));
+  }
+
+  /// " (feature 3, 'Sylt')" behind the line in messages; nothing outside of a list of features.
+  std::string feature_label() const {
+    if (feature_ == 0)
+      return {};
+    return feature_name_.empty() ? fmt::format(" (feature {})", feature_)
+                                 : fmt::format(" (feature {}, '{}')", feature_, trime::shown(feature_name_));
   }
 
   static std::string shown(const std::string& token) {
@@ -214,6 +230,8 @@ private:
   const std::string& attribute_;
   const int& line_;
   std::vector<Object> objects_; // that are open
+  int feature_ = 0;             // number of the present one, from 1
+  std::string feature_name_;
 };
 
 } // namespace

@@ -17,7 +17,7 @@ constexpr int most_warnings = 5;
 } // namespace
 
 void RingBuilder::add(Vec2 p, int line, int marker) {
-  check_coordinates(p, contour_.source, line);
+  check_coordinates(p, contour_.source, line, feature_);
   if (!ring_.points.empty() && ring_.points.back() == p) {
     warn(p, line);
     ring_.markers.back() = marker;
@@ -37,10 +37,10 @@ void RingBuilder::end_ring() {
     ring_.markers.pop_back();
   }
   if (const int distinct = distinct_vertices(); distinct < 3)
-    throw GeometryError(fmt::format("{}:{}: the ring that starts here at ({}, {}) has {} distinct {}; expected at "
+    throw GeometryError(fmt::format("{}:{}{}: the ring that starts here at ({}, {}) has {} distinct {}; expected at "
                                     "least 3",
-                                    contour_.source, ring_.lines[0], ring_.points[0].x, ring_.points[0].y, distinct,
-                                    distinct == 1 ? "vertex" : "vertices"));
+                                    contour_.source, ring_.lines[0], feature_, ring_.points[0].x, ring_.points[0].y,
+                                    distinct, distinct == 1 ? "vertex" : "vertices"));
   if (std::all_of(ring_.markers.begin(), ring_.markers.end(), [](int marker) { return marker == 0; }))
     ring_.markers = {};
   ring_.points.shrink_to_fit(); // they have grown by doubling
@@ -75,8 +75,8 @@ int RingBuilder::distinct_vertices() const {
 
 void RingBuilder::warn(Vec2 p, int line) {
   if (++merged_ <= most_warnings)
-    contour_.warnings.push_back(fmt::format("{}:{}: vertex ({}, {}) repeats the one before it; the two are merged",
-                                            contour_.source, line, p.x, p.y));
+    contour_.warnings.push_back(fmt::format("{}:{}{}: vertex ({}, {}) repeats the one before it; the two are merged",
+                                            contour_.source, line, feature_, p.x, p.y));
 }
 
 namespace {

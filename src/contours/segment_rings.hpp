@@ -17,6 +17,8 @@ public:
   /// @param contour names its source; receives rings and warnings, and outlives this object
   explicit RingBuilder(Contour& contour) : contour_(contour) {}
 
+  /// What messages say behind the line from here on, such as " (feature 3)".
+  void set_feature(const std::string& feature) { feature_ = feature; }
   /// @param marker of the edge from this vertex to the next
   /// @throws GeometryError for coordinates that are too large
   void add(geometry::Vec2 p, int line, int marker = 0);
@@ -32,6 +34,7 @@ private:
 
   Contour& contour_;
   ContourRing ring_;
+  std::string feature_;
   int merged_ = 0;
 };
 

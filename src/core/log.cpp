@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trime/core/log.hpp"
 
+#include "trime/core/error.hpp"
 #include "trime/core/timer.hpp"
 
 #include <algorithm>
@@ -79,7 +80,8 @@ void Log::write(LogLevel level, const std::string& message) {
   if (!active_ || level < level_)
     return;
   erase_live_line();
-  fmt::print(stream_, "{}{}\n", level == LogLevel::warning ? "warning: " : "", rewrite_ ? rewrite_(message) : message);
+  const PlacedText read(message);
+  fmt::print(stream_, "{}{}\n", level == LogLevel::warning ? "warning: " : "", rewrite_ ? rewrite_(read) : read.text());
   std::fflush(stream_);
 }
 

@@ -28,25 +28,34 @@ struct FirstSums {
 };
 constexpr std::size_t first_words = sizeof(FirstSums) / sizeof(std::int64_t);
 
-/// The medians, and where the worst triangle is: what can only be asked for once the sums are known.
+/// The medians, and where the worst triangle and the shortest edge are: what can only be asked for once the sums are
+/// known.
 struct Detail {
   mesh::RatioSummary alpha, beta;
-  Vec2 worst_place;
+  Vec2 worst_place, shortest_place;
 };
 
-/// @param worst largest alpha on any rank. Collective.
-Detail look_closer(const comm::Communicator& comm, const QualitySums& sums, const RatioTotals& alpha,
-                   const RatioTotals& beta, double worst) {
+/// The totals of all ranks that look_closer() needs.
+struct Totals {
+  RatioTotals alpha, beta;
+  double worst, shortest;
+};
+
+/// Collective.
+Detail look_closer(const comm::Communicator& comm, const QualitySums& sums, const Totals& of_all) {
+  const RatioTotals &alpha = of_all.alpha, &beta = of_all.beta;
   constexpr std::size_t n = RatioStatistics::run_length;
   std::array<std::int64_t, 2 * n> bins;
   std::ranges::copy(sums.alpha.bins(alpha.median_run()), bins.begin());
   std::ranges::copy(sums.beta.bins(beta.median_run()), bins.begin() + n);
-  // The first place in lexicographic order of those that are equally bad.
-  const bool here = sums.worst_alpha == worst;
-  std::array<double, 1> least{here ? -sums.worst_place.x : -infinity};
-  comm.sum_and_max(bins, least);
-  const double x = -least[0], y = comm.min(here && sums.worst_place.x == x ? sums.worst_place.y : infinity);
-  return {alpha.summary(std::span(bins).first(n)), beta.summary(std::span(bins).last(n)), {x, y}};
+  // The first places in lexicographic order of those that are equally bad, or equally short.
+  const bool is_worst = sums.worst_alpha == of_all.worst, is_shortest = sums.shortest == of_all.shortest;
+  std::array<double, 2> x{is_worst ? -sums.worst_place.x : -infinity, is_shortest ? -sums.shortest_place.x : -infinity};
+  comm.sum_and_max(bins, x);
+  std::array<double, 2> y{is_worst && sums.worst_place.x == -x[0] ? sums.worst_place.y : infinity,
+                          is_shortest && sums.shortest_place.x == -x[1] ? sums.shortest_place.y : infinity};
+  comm.min(y);
+  return {alpha.summary(std::span(bins).first(n)), beta.summary(std::span(bins).last(n)), {-x[0], y[0]}, {-x[1], y[1]}};
 }
 
 using geometry::lexicographically_less;
@@ -148,11 +157,19 @@ void QualitySums::note_worst(double a, Vec2 place) {
   }
 }
 
+void QualitySums::note_shortest(double length, Vec2 place) {
+  if (length < shortest || (length == shortest && geometry::lexicographically_less(place, shortest_place))) {
+    shortest = length;
+    shortest_place = place;
+  }
+}
+
 void QualitySums::add(const QualitySums& other) {
   alpha.merge(other.alpha);
   beta.merge(other.beta);
   least_sine = std::min(least_sine, other.least_sine);
   note_worst(other.worst_alpha, other.worst_place);
+  note_shortest(other.shortest, other.shortest_place);
   ratio.add(other.ratio);
   squared_ratio.add(other.squared_ratio);
   edges += other.edges;
@@ -222,9 +239,18 @@ void QualityMeter::measure_edges() {
   else
     for (std::size_t k = 0; k < n; ++k)
       size[k] = sizing::checked_size(size_, periods_.wrap(0.5 * (from_[k] + to_[k])));
+  Values length;
+  double least = infinity;
+  for (std::size_t k = 0; k < n; ++k) {
+    length[k] = geometry::length(to_[k] - from_[k]);
+    least = std::min(least, length[k]);
+  }
+  for (std::size_t k = 0; least <= sums_.shortest && k < n; ++k)
+    if (length[k] == least)
+      sums_.note_shortest(least, periods_.wrap(0.5 * (from_[k] + to_[k])));
   std::int64_t ratios = 0, squares = 0;
   for (std::size_t k = 0; k < n; ++k) {
-    const double capped = std::min(most_over_size, geometry::length(to_[k] - from_[k]) / size[k]);
+    const double capped = std::min(most_over_size, length[k] / size[k]);
     ratios += FixedSum::units(capped);
     squares += FixedSum::units(capped * capped);
   }
@@ -238,18 +264,22 @@ mesh::QualitySummary summarize(const comm::Communicator& comm, QualitySums& sums
   const FirstSums mine{sums.alpha.pack(),          sums.beta.pack(), sums.ratio.split(),
                        sums.squared_ratio.split(), sums.edges,       sums.bad.count()};
   auto words = std::bit_cast<std::array<std::int64_t, first_words>>(mine);
-  std::array<double, 4> largest{sums.alpha.max(), sums.beta.max(), -sums.least_sine, sums.worst_alpha};
+  std::array<double, 5> largest{sums.alpha.max(), sums.beta.max(), -sums.least_sine, sums.worst_alpha, -sums.shortest};
   comm.sum_and_max(words, largest);
   const auto first = std::bit_cast<FirstSums>(words);
-  const RatioTotals alpha(first.alpha, largest[0]), beta(first.beta, largest[1]);
-  const Detail detail = look_closer(comm, sums, alpha, beta, largest[3]);
+  const Totals totals{{first.alpha, largest[0]}, {first.beta, largest[1]}, largest[3], -largest[4]};
+  const Detail detail = look_closer(comm, sums, totals);
 
   mesh::QualitySummary quality;
   quality.alpha = detail.alpha;
   quality.beta = detail.beta;
-  quality.alpha_histogram = alpha.histogram();
+  quality.alpha_histogram = totals.alpha.histogram();
   quality.min_angle_degrees = std::min(60.0, elementary::asin(std::min(1.0, -largest[2])) * (180 / pi));
   quality.worst_place = detail.worst_place;
+  if (first.edges > 0) {
+    quality.shortest_edge = totals.shortest;
+    quality.shortest_place = detail.shortest_place;
+  }
   sums.bad.gather(comm, first.bad);
   sums.bad.tell(quality);
   const double edges = static_cast<double>(std::max<std::int64_t>(1, first.edges));

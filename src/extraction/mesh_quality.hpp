@@ -56,17 +56,20 @@ private:
 };
 
 /// Sums over triangles and edges. They can be merged in any order: sums are integers inside, and of equally bad
-/// triangles the lexicographically first is kept.
+/// triangles and equally short edges the lexicographically first is kept.
 struct QualitySums {
   mesh::RatioStatistics alpha, beta;
   double least_sine = std::numeric_limits<double>::infinity(); ///< sine of the smallest angle of a triangle
   double worst_alpha = 0;
   geometry::Vec2 worst_place;
-  FixedSum ratio, squared_ratio; ///< sums of L / h over edges
+  double shortest = std::numeric_limits<double>::infinity(); ///< length of the shortest edge
+  geometry::Vec2 shortest_place;                             ///< its middle, in the container
+  FixedSum ratio, squared_ratio;                             ///< sums of L / h over edges
   std::int64_t edges = 0;
   BadTriangles bad;
 
   void note_worst(double a, geometry::Vec2 place);
+  void note_shortest(double length, geometry::Vec2 place);
   void add(const QualitySums& other);
 };
 

@@ -134,6 +134,9 @@ mesh::QualitySummary quality_of(const io::Metadata& metadata) {
                                     {"beta_half_mean", &quality.beta.half_mean},
                                     {"beta_std", &quality.beta.std},
                                     {"min_angle_degrees", &quality.min_angle_degrees},
+                                    {"shortest_edge", &quality.shortest_edge},
+                                    {"shortest_edge_x", &quality.shortest_place.x},
+                                    {"shortest_edge_y", &quality.shortest_place.y},
                                     {"size_mean", &quality.size_mean},
                                     {"size_std", &quality.size_std}})
     if (group != nullptr)

@@ -2,6 +2,7 @@
 #include "fitting/size_warnings.hpp"
 
 #include "fitting/rules.hpp"
+#include "trime/core/error.hpp"
 
 #include <cmath>
 
@@ -43,9 +44,9 @@ void warn_of_steep_sizes(const Stage& stage, const geometry::Boundary& boundary,
       look(p, {0, stride.y});
     }
   if (steepest > warned_slope)
-    log.warning("the size field has gradient {:.3g} near ({:.4g}, {:.4g}); triangles can follow about 0.5: expect "
+    log.warning("the size field has gradient {:.3g} near {}; triangles can follow about 0.5: expect "
                 "fewer points and small angles, or use more points or a smoother size",
-                steepest, place.x, place.y);
+                steepest, Place(place, 4));
 }
 
 void warn_of_fine_features(const Stage& stage, bool has_least_size, Log& log) {
@@ -67,8 +68,8 @@ void warn_of_fine_features(const Stage& stage, bool has_least_size, Log& log) {
   const double share = has_least_size ? LayoutRules::warned_share_of_chords : 0;
   if (static_cast<double>(count) > share * static_cast<double>(sites.size()))
     log.warning("{} of {} boundary edges are far shorter than the requested size there: expect small angles next to "
-                "them; the worst, {:.3g} long where the size is {:.3g}, is at ({:.6g}, {:.6g}){}",
-                count, sites.size(), length, size, place.x, place.y,
+                "them; the worst, {:.3g} long where the size is {:.3g}, is at {}{}",
+                count, sites.size(), length, size, Place(place, 6),
                 has_least_size ? "; a smaller min_size would help" : "");
 }
 

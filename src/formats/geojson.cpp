@@ -52,8 +52,7 @@ private:
     if (const auto place = transform.undo(p))
       return *place;
     throw FileError(fmt::format(
-        "the point ({:.9g}, {:.9g}) of the mesh has no longitude and latitude; use another format than geojson", p.x,
-        p.y));
+        "the point {} of the mesh has no longitude and latitude; use another format than geojson", Place(p)));
   }
 
   GlobalId first_;
@@ -69,11 +68,19 @@ void append_place(std::string& to, Vec2 p) {
   to += ']';
 }
 
-void append_head(std::string& to, const char* kind, GlobalId id, const char* label, std::int64_t number,
-                 const std::string& name, const char* type) {
+/// What stands before the coordinates of a feature.
+struct Head {
+  const char* kind;
+  GlobalId id;
+  const char* label; ///< name of the property that holds `number`
+  std::int64_t number;
+  const std::string& name; ///< quoted
+  const char* type;
+};
+void append_head(std::string& to, const Head& head) {
   to += fmt::format(R"({{"type":"Feature","properties":{{"kind":"{}","number":{},"{}":{},"name":{}}},)"
                     R"("geometry":{{"type":"{}","coordinates":)",
-                    kind, id, label, number, name, type);
+                    head.kind, head.id, head.label, head.number, head.name, head.type);
 }
 
 /// Quotes names as JSON does.
@@ -90,32 +97,32 @@ std::vector<FilePlan> plan_geojson(const ExchangeMesh& mesh, const std::string& 
   const auto places = std::make_shared<const Places>(mesh); // shared: the rows outlive this function
   const std::vector<std::string> regions = quoted(mesh.names().regions), parts = quoted(mesh.names().parts);
   const GlobalId last = mesh.facets() - 1;
-  return {{path,
-           {mesh.once("{\"type\":\"FeatureCollection\",\"features\":[\n"),
-            mesh.triangle_rows([&mesh, places, regions, last](std::int64_t row, GlobalId id,
-                                                              const std::array<GlobalId, 3>& corners, std::string& to) {
-              const std::int64_t region = mesh.region(row);
-              append_head(to, "triangle", id, "region", region, regions[static_cast<std::size_t>(region - 1)],
-                          "Polygon");
-              to += "[[";
-              for (const GlobalId corner : {corners[0], corners[1], corners[2], corners[0]}) {
-                append_place(to, (*places)[corner]);
-                to += ',';
-              }
-              to.pop_back();
-              to += last < 0 && id + 1 == mesh.triangles() ? "]]}}\n" : "]]}},\n";
-            }),
-            mesh.facet_rows([&mesh, places, parts, last](std::int64_t row, GlobalId id,
-                                                         const std::array<GlobalId, 2>& ends, std::string& to) {
-              const std::int64_t label = mesh.facet_label(row);
-              append_head(to, "edge", id, "label", label, parts[static_cast<std::size_t>(label - 1)], "LineString");
-              to += '[';
-              append_place(to, (*places)[ends[0]]);
-              to += ',';
-              append_place(to, (*places)[ends[1]]);
-              to += id == last ? "]}}\n" : "]}},\n";
-            }),
-            mesh.once("]}\n")}}};
+  return {
+      {path,
+       {mesh.once("{\"type\":\"FeatureCollection\",\"features\":[\n"),
+        mesh.triangle_rows([&mesh, places, regions, last](std::int64_t row, GlobalId id,
+                                                          const std::array<GlobalId, 3>& corners, std::string& to) {
+          const std::int64_t region = mesh.region(row);
+          append_head(to, {"triangle", id, "region", region, regions[static_cast<std::size_t>(region - 1)], "Polygon"});
+          to += "[[";
+          for (const GlobalId corner : {corners[0], corners[1], corners[2], corners[0]}) {
+            append_place(to, (*places)[corner]);
+            to += ',';
+          }
+          to.pop_back();
+          to += last < 0 && id + 1 == mesh.triangles() ? "]]}}\n" : "]]}},\n";
+        }),
+        mesh.facet_rows([&mesh, places, parts, last](std::int64_t row, GlobalId id, const std::array<GlobalId, 2>& ends,
+                                                     std::string& to) {
+          const std::int64_t label = mesh.facet_label(row);
+          append_head(to, {"edge", id, "label", label, parts[static_cast<std::size_t>(label - 1)], "LineString"});
+          to += '[';
+          append_place(to, (*places)[ends[0]]);
+          to += ',';
+          append_place(to, (*places)[ends[1]]);
+          to += id == last ? "]}}\n" : "]}},\n";
+        }),
+        mesh.once("]}\n")}}};
 }
 
 } // namespace trime::formats

@@ -74,6 +74,23 @@ void select_rows(hid_t space, hsize_t first, hsize_t count, hsize_t columns) {
           "select rows of an HDF5 array");
 }
 
+/// The rows of a slice in the file and in the buffer.
+struct SliceSpaces {
+  Hdf5Space in_file, in_memory;
+
+  SliceSpaces() = default;
+  /// @param most rows of a slice, at least 1
+  SliceSpaces(const SlabArray& array, std::int64_t most)
+      : in_file(array_space(static_cast<hsize_t>(array.slab.total), array.columns)),
+        in_memory(array_space(static_cast<hsize_t>(most), array.columns)) {}
+
+  /// Selects `count` rows of this rank from row `first` on.
+  void select(const SlabArray& array, std::int64_t first, std::int64_t count) const {
+    select_rows(in_file, static_cast<hsize_t>(array.slab.first + first), static_cast<hsize_t>(count), array.columns);
+    select_rows(in_memory, 0, static_cast<hsize_t>(count), array.columns);
+  }
+};
+
 } // namespace
 
 /// Passed by reference, since a copy of the lambda might need memory before the ranks could agree that memory has run
@@ -257,25 +274,21 @@ void SlabFile::write_slices(hid_t dataset, const SlabArray& array) {
   const auto rows_from = [&](std::int64_t first) {
     return std::clamp<std::int64_t>(array.rows - first, 0, slice_rows);
   };
-  Hdf5Space in_file, in_memory;
+  SliceSpaces spaces;
   Hdf5Properties properties;
   std::string writing;
   agreed([&] {
     make_room(dataset, array);
-    in_file = array_space(static_cast<hsize_t>(array.slab.total), array.columns);
-    in_memory = array_space(static_cast<hsize_t>(std::max<std::int64_t>(rows_from(0), 1)), array.columns);
+    spaces = SliceSpaces(array, std::max<std::int64_t>(rows_from(0), 1));
     properties = transfer(comm_, !alone);
     writing = action("write", array.path);
     fill_beside([] {}, array, 0, rows_from(0), slice_.data());
   });
-  const auto select_slice = [&](std::int64_t first) {
-    const std::int64_t count = rows_from(first);
-    select_rows(in_file, static_cast<hsize_t>(array.slab.first + first), static_cast<hsize_t>(count), array.columns);
-    select_rows(in_memory, 0, static_cast<hsize_t>(count), array.columns);
-  };
   const auto write_slice = [&](std::int64_t first) { // what throws in here comes after the call of HDF5
     herr_t written = -1;
-    const auto write = [&] { written = H5Dwrite(dataset, array.type, in_memory, in_file, properties, slice_.data()); };
+    const auto write = [&] {
+      written = H5Dwrite(dataset, array.type, spaces.in_memory, spaces.in_file, properties, slice_.data());
+    };
     fill_beside(write, array, first + slice_rows, rows_from(first + slice_rows), other_slice_.data());
     checked(written, writing);
     swap(slice_, other_slice_);
@@ -285,13 +298,13 @@ void SlabFile::write_slices(hid_t dataset, const SlabArray& array) {
   if (alone)
     agreed([&] {
       for (std::int64_t first = 0; first < longest; first += slice_rows) {
-        select_slice(first);
+        spaces.select(array, first, rows_from(first));
         write_slice(first);
       }
     });
   else
     for (std::int64_t first = 0; first < longest; first += slice_rows) {
-      agreed([&] { select_slice(first); });
+      agreed([&] { spaces.select(array, first, rows_from(first)); });
       agreed_after([&] { write_slice(first); });
     }
 }

@@ -178,9 +178,9 @@ private:
   }
 
   [[noreturn]] static void fail_for_small_size(geometry::Vec2 p, double h) {
-    throw GeometryError(fmt::format("the size near ({}, {}) is {}: such a small size needs far more points than are "
+    throw GeometryError(fmt::format("the size near {} is {}: such a small size needs far more points than are "
                                     "possible; make the size larger there, or set min_size",
-                                    p.x, p.y, h));
+                                    Place(p, 0), h));
   }
 
   const mesh::TileGrid& grid_;

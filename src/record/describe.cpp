@@ -141,6 +141,9 @@ io::MetadataGroup quality_group(const mesh::QualitySummary& quality) {
   add_summary(group.attributes, "alpha", quality.alpha);
   add_summary(group.attributes, "beta", quality.beta);
   group.attributes.push_back({"min_angle_degrees", quality.min_angle_degrees});
+  group.attributes.push_back({"shortest_edge", quality.shortest_edge});
+  group.attributes.push_back({"shortest_edge_x", quality.shortest_place.x});
+  group.attributes.push_back({"shortest_edge_y", quality.shortest_place.y});
   group.attributes.push_back({"size_mean", quality.size_mean});
   group.attributes.push_back({"size_std", quality.size_std});
   group.attributes.push_back({"bad_triangles", quality.bad_triangles});

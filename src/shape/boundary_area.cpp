@@ -46,8 +46,8 @@ void check_area(const Boundary& boundary, const std::string& region, const Frame
     const Vec2 p = boundary.loops.front().pieces.front().start;
     throw GeometryError(
         fmt::format("the geometry '{}' is thinner than the resolution of the container: expected an area above {:.3g} "
-                    "inside of a boundary of length {:.6g}, found {:.3g}; its boundary begins at ({:.10g}, {:.10g})",
-                    region, least, length, boundary.area, p.x, p.y));
+                    "inside of a boundary of length {:.6g}, found {:.3g}; its boundary begins at {}",
+                    region, least, length, boundary.area, Place(p, 10)));
   }
 }
 

@@ -54,6 +54,43 @@ Piece reversed_arc(Piece arc) {
   return arc;
 }
 
+/// The placed parts on the left and on the right of one piece after the other.
+class PartsBeside {
+public:
+  explicit PartsBeside(std::size_t parts) : piece_of_(parts, 0), is_left_(parts, 0) {}
+
+  void begin() {
+    ++piece_;
+    for (std::vector<int>* parts : {&known_, &left_, &right_})
+      parts->clear();
+  }
+  /// A curve of the part runs along the piece. The last word about a part holds.
+  void set(int part, bool on_left) {
+    if (!has(static_cast<std::size_t>(part)))
+      known_.push_back(part);
+    piece_of_[static_cast<std::size_t>(part)] = piece_;
+    is_left_[static_cast<std::size_t>(part)] = on_left ? 1 : 0;
+  }
+  bool has(std::size_t part) const { return piece_of_[part] == piece_; }
+  /// Call it once all parts are set.
+  void divide() {
+    for (const int part : known_)
+      (is_left_[static_cast<std::size_t>(part)] != 0 ? left_ : right_).push_back(part);
+  }
+  void add_on_both(int part) {
+    left_.push_back(part);
+    right_.push_back(part);
+  }
+  const std::vector<int>& left() const { return left_; }
+  const std::vector<int>& right() const { return right_; }
+
+private:
+  std::size_t piece_ = 0;             // number of the present one, from 1
+  std::vector<std::size_t> piece_of_; // the last one for which each part was set
+  std::vector<char> is_left_;
+  std::vector<int> known_, left_, right_;
+};
+
 class BoundaryMaker {
 public:
   BoundaryMaker(const Region& region, std::span<const Part> parts, const Frame& frame)
@@ -97,6 +134,12 @@ private:
     bool reversed;
   };
 
+  /// One side of a piece.
+  struct Side {
+    bool is_region;
+    bool in_container; ///< always true unless the container is periodic
+  };
+
   /// The parts that occur, ascending by index, with their images; the cutting part last.
   std::vector<PlacedPart> place(std::span<const Part> parts) {
     std::vector<PlacedPart> placed;
@@ -119,7 +162,8 @@ private:
   Vec2 place_of(LocalIndex vertex) const { return nodes_->point(nodes_->node(vertex)) + nodes_->shift(vertex); }
   Vec2 middle(const Arrangement::Piece& piece) const;
   void classify();
-  void classify_sides(LocalIndex k, bool on_left, bool on_right, bool in_left, bool in_right);
+  Side side_of(RegionState& state, const std::vector<int>& places) const;
+  void keep_if_border(LocalIndex k, const Side& left, const Side& right);
   void check_container() const;
   void link();
   [[noreturn]] void report_node(LocalIndex node) const;
@@ -184,16 +228,7 @@ geometry::BoxTree BoundaryMaker::tree_of_places() const {
 void BoundaryMaker::classify() {
   const geometry::BoxTree tree = tree_of_places();
   RegionState state(region_, given_.size() + 1);
-  std::vector<int> known, left, right;                  // placed parts
-  std::vector<std::size_t> known_to(placed_.size(), 0); // the number of the piece + 1
-  std::vector<char> is_left(placed_.size(), 0);
-  const auto set_sides = [&](std::size_t piece, int part, bool on_left) { // the last word holds
-    const auto place = static_cast<std::size_t>(part);
-    if (known_to[place] != piece + 1)
-      known.push_back(part);
-    known_to[place] = piece + 1;
-    is_left[place] = on_left ? 1 : 0;
-  };
+  PartsBeside beside(placed_.size());
   std::vector<InsideWalk> walks;
   for (const PlacedPart& placed : placed_)
     walks.emplace_back(*placed.part);
@@ -201,33 +236,33 @@ void BoundaryMaker::classify() {
   kept_.reserve(pieces.size());
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     const Arrangement::Piece& piece = pieces[k];
-    known.clear();
-    set_sides(k, piece.part, true);
+    beside.begin();
+    beside.set(piece.part, true);
     for (LocalIndex t = piece.first_twin; t < piece.first_twin + piece.twin_count; ++t)
-      set_sides(k, arrangement_.twins()[t].part, arrangement_.twins()[t].along);
-    left.clear();
-    right.clear();
-    for (const int part : known)
-      (is_left[static_cast<std::size_t>(part)] != 0 ? left : right).push_back(part);
+      beside.set(arrangement_.twins()[t].part, arrangement_.twins()[t].along);
+    beside.divide();
     const Vec2 p = middle(piece);
     tree.for_each_meeting({p, p}, [&](std::size_t place) {
-      if (known_to[place] == k + 1 || !walks[place].inside(p - placed_[place].shift))
-        return;
-      left.push_back(static_cast<int>(place));
-      right.push_back(static_cast<int>(place));
+      if (!beside.has(place) && walks[place].inside(p - placed_[place].shift))
+        beside.add_on_both(static_cast<int>(place));
     });
-    classify_sides(static_cast<LocalIndex>(k), holds(state, left), holds(state, right), are_uncut(left),
-                   are_uncut(right));
+    keep_if_border(static_cast<LocalIndex>(k), side_of(state, beside.left()), side_of(state, beside.right()));
   }
+}
+
+BoundaryMaker::Side BoundaryMaker::side_of(RegionState& state, const std::vector<int>& places) const {
+  const auto is_cut = [&](int place) { return placed_[static_cast<std::size_t>(place)].index == cut_index; };
+  const bool cuts = placed_.back().index == cut_index;
+  return {holds(state, places), !cuts || std::any_of(places.begin(), places.end(), is_cut)};
 }
 
 /// Keeps pieces with the region on one side only; of a piece on the border of a periodic container and its image on
 /// the other side that one whose region lies in the container.
-void BoundaryMaker::classify_sides(LocalIndex k, bool on_left, bool on_right, bool in_left, bool in_right) {
+void BoundaryMaker::keep_if_border(LocalIndex k, const Side& left, const Side& right) {
   const Arrangement::Piece& piece = arrangement_.pieces()[k];
-  if (on_left && !on_right && in_left)
+  if (left.is_region && !right.is_region && left.in_container)
     kept_.push_back({piece.from, piece.to, k, false});
-  else if (on_right && !on_left && in_right)
+  else if (right.is_region && !left.is_region && right.in_container)
     kept_.push_back({piece.to, piece.from, k, true});
 }
 
@@ -252,10 +287,10 @@ void BoundaryMaker::check_container() const {
     return;
   const Vec2 p = arrangement_.vertices().point(farthest->from);
   throw GeometryError(fmt::format(
-      "the geometry '{}' {} the container [{}, {}] x [{}, {}]: part '{}' reaches ({:.9g}, {:.9g}), {:.3g} beyond it; "
+      "the geometry '{}' {} the container [{}, {}] x [{}, {}]: part '{}' reaches {}, {:.3g} beyond it; "
       "enlarge [domain], move the part, or intersect with 'domain'",
       region_.text(), outside == kept_.size() ? "lies outside" : "lies partly outside", box.min.x, box.max.x, box.min.y,
-      box.max.y, boundary_.part_names[index_of(arrangement_.pieces()[farthest->piece])], p.x, p.y, worst));
+      box.max.y, boundary_.part_names[index_of(arrangement_.pieces()[farthest->piece])], Place(p), worst));
 }
 
 void BoundaryMaker::link() {
@@ -292,13 +327,13 @@ void BoundaryMaker::report_node(LocalIndex node) const {
     list += fmt::format("{}'{}'", list.empty() ? "" : ", ", name);
   const Vec2 p = nodes_->point(node);
   if (arrivals == departures)
-    throw GeometryError(fmt::format("the boundary of the geometry '{}' touches itself at ({:.12g}, {:.12g}) (part {}); "
+    throw GeometryError(fmt::format("the boundary of the geometry '{}' touches itself at {} (part {}); "
                                     "expected curves that do not meet: move the parts apart, or make them overlap",
-                                    region_.text(), p.x, p.y, list));
+                                    region_.text(), Place(p, 12), list));
   throw GeometryError(
-      fmt::format("boundaries of parts of the geometry '{}' nearly coincide at ({:.12g}, {:.12g}) (part {}): they are "
+      fmt::format("boundaries of parts of the geometry '{}' nearly coincide at {} (part {}): they are "
                   "nearer than about {:.2g} to each other but not equal; make them equal, or move them apart",
-                  region_.text(), p.x, p.y, list, VertexTable::merge_steps * frame_.step()));
+                  region_.text(), Place(p, 12), list, VertexTable::merge_steps * frame_.step()));
 }
 
 void BoundaryMaker::chain() {

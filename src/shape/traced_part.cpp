@@ -88,10 +88,10 @@ void join_sides(Rings& rings, const Axis& axis, double reach, const std::string&
       continue;
     }
     const Vec2 alone = k < low.size() ? *low[k] : *high[k];
-    throw GeometryError(fmt::format(
-        "part '{}': its boundary meets the side of the periodic container at ({:.9g}, {:.9g}), but not the opposite "
-        "side; expected a function with the period of the container in {}",
-        name, alone.x, alone.y, axis.name));
+    throw GeometryError(
+        fmt::format("part '{}': its boundary meets the side of the periodic container at {}, but not the opposite "
+                    "side; expected a function with the period of the container in {}",
+                    name, Place(alone), axis.name));
   }
 }
 

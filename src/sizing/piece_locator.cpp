@@ -36,6 +36,25 @@ struct Segment {
   }
 };
 
+/// The segments as the search kernel wants them; places behind the last one hold no number.
+std::vector<SegmentLeaf> leaves_of(const std::vector<Segment>& segments) {
+  SegmentLeaf none{};
+  std::fill(std::begin(none.a_x), std::end(none.a_x), std::numeric_limits<double>::quiet_NaN());
+  std::vector<SegmentLeaf> leaves((segments.size() + BoxHierarchy::width - 1) / BoxHierarchy::width, none);
+  for (std::size_t k = 0; k < segments.size(); ++k) {
+    SegmentLeaf& leaf = leaves[k / BoxHierarchy::width];
+    const std::size_t place = k % BoxHierarchy::width;
+    const Vec2 a = segments[k].piece->start + *segments[k].shift, d = segments[k].piece->end + *segments[k].shift - a;
+    const double square = squared_length(d);
+    leaf.a_x[place] = a.x;
+    leaf.a_y[place] = a.y;
+    leaf.d_x[place] = d.x;
+    leaf.d_y[place] = d.y;
+    leaf.inverse_square[place] = square > 0 ? 1 / square : 0;
+  }
+  return leaves;
+}
+
 } // namespace
 
 PieceLocator::PieceLocator(const geometry::Boundary& boundary, const Images& images)
@@ -59,23 +78,8 @@ PieceLocator::PieceLocator(const geometry::Boundary& boundary, const Images& ima
           segments.push_back({&piece, &shift});
       }
   arc_tree_ = BoxHierarchy(arcs_.size(), [&](std::size_t k) { return BoxHierarchy::Item{arcs_[k].box, 0}; });
-  segment_tree_ = BoxHierarchy(segments.size(), [&](std::size_t k) {
-    return BoxHierarchy::Item{segments[k].box(), 0};
-  });
-  SegmentLeaf none{};
-  std::fill(std::begin(none.a_x), std::end(none.a_x), std::numeric_limits<double>::quiet_NaN());
-  segments_.resize((segments.size() + BoxHierarchy::width - 1) / BoxHierarchy::width, none);
-  for (std::size_t k = 0; k < segments.size(); ++k) {
-    SegmentLeaf& leaf = segments_[k / BoxHierarchy::width];
-    const std::size_t place = k % BoxHierarchy::width;
-    const Vec2 a = segments[k].piece->start + *segments[k].shift, d = segments[k].piece->end + *segments[k].shift - a;
-    const double square = squared_length(d);
-    leaf.a_x[place] = a.x;
-    leaf.a_y[place] = a.y;
-    leaf.d_x[place] = d.x;
-    leaf.d_y[place] = d.y;
-    leaf.inverse_square[place] = square > 0 ? 1 / square : 0;
-  }
+  segment_tree_ = BoxHierarchy(segments.size(), [&](std::size_t k) { return BoxHierarchy::Item{segments[k].box(), 0}; });
+  segments_ = leaves_of(segments);
 }
 
 std::optional<PieceLocator::Nearest> PieceLocator::nearest(Vec2 p, double reach) const {

@@ -9,9 +9,9 @@
 namespace trime::sizing {
 
 void fail_for_size(geometry::Vec2 p, double size) {
-  throw GeometryError(fmt::format("the size field at ({}, {}): expected a positive finite size, found {}; the field "
+  throw GeometryError(fmt::format("the size field at {}: expected a positive finite size, found {}; the field "
                                   "must be positive in the whole shape",
-                                  p.x, p.y, size));
+                                  Place(p, 0), size));
 }
 
 ExpressionSize::ExpressionSize(const Formula& formula, const geometry::Box& box) : formula_(formula), box_(box) {
@@ -24,9 +24,10 @@ ExpressionSize::ExpressionSize(const Formula& formula, const geometry::Box& box)
       if (!std::isfinite(value) || value <= 0)
         throw ConfigError(
             fmt::format("{}: expected a positive size everywhere in the bounding box of the shape, found {:.6g} at "
-                        "({:.6g}, {:.6g}) for '{}'; if the size is wrong outside the shape only, write "
+                        "{} for '{}'; if the size is wrong outside the shape only, write "
                         "max(FORMULA, SMALLEST SIZE)",
-                        formula.where(), std::isnan(value) ? std::fabs(value) : value, x, y, formula.text()));
+                        formula.where(), std::isnan(value) ? std::fabs(value) : value,
+                        Place(geometry::Vec2{x, y}, 6), formula.text()));
       largest = std::fmax(largest, value);
     }
   smallest_ = smallest_share * largest;

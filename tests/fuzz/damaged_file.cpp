@@ -41,7 +41,7 @@ void run(const std::string& directory, const comm::Communicator& comm, bool stop
     signals.ask_to_stop();
   app::UserPlaces places;
   try {
-    app::run_program(static_cast<int>(arguments.size()), arguments.data(), comm, nullptr, signals, places);
+    app::run_program(static_cast<int>(arguments.size()), arguments.data(), comm, {nullptr, signals, places});
   } catch (const meshing::StoppedAtCheckpoint&) {
     TRIME_ASSERT(stops, "stopped without being asked");
   }

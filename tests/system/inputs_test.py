@@ -311,8 +311,12 @@ class Maps(unittest.TestCase):
                 left_out = int(file["trime_mpi"].attrs["corners_left_out"])
                 self.assertEqual(set(file["trime_mpi/rings/state"][:]), {b"kept"})
                 plane = file["trime_mpi"].attrs["crs"].decode()
+                quality = dict(file["trime_mpi/quality"].attrs)
             self.assertLess(numpy.abs(points).max(), 1e5)  # metres from the middle
             triangles, edges = self.places(work / "case.geojson")
+            middle = (quality["shortest_edge_longitude"], quality["shortest_edge_latitude"])
+            self.assertLess(numpy.abs(triangles.reshape(-1, 2) - middle).max(axis=1).min(),  # half an edge, in degrees
+                            quality["shortest_edge"] / 2 / 5e4)
             vertices = numpy.concatenate([ring[:-1] for ring in rings])
             corners = {point: place for points, places in zip(ends, edges) for point, place in zip(points, places)
                        if is_corner[point]}  # each a vertex of the coast, and no other one a corner

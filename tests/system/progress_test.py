@@ -138,6 +138,10 @@ class Progress(unittest.TestCase):
                                  int(re.search(r"(\d+) boundary edges", facts["Mesh"])[1]))
                 self.assertRegex(facts["Quality"],
                                  r"alpha median 1\.\d+, .* at \(\S+, \S+\).*; smallest angle \S+ degrees")
+                quality = report["groups"]["quality"]["attributes"]
+                shortest = re.match(r"edge of length (\S+) at \((\S+), (\S+)\)", facts["Shortest"]).groups()
+                for found, name in zip(shortest, ("shortest_edge", "shortest_edge_x", "shortest_edge_y")):
+                    self.assertAlmostEqual(float(found), quality[name], delta=1e-5 * quality[name])
                 self.assertRegex(facts["Time"], r"^\S+ s: [a-z -]+ \d+ %, [a-z -]+ \d+ %; memory")
                 self.assertTrue(facts["Files"].startswith(f"{work}/spade.h5 .xdmf .xmf .vtkhdf  ("), facts["Files"])
 

@@ -11,6 +11,8 @@
 
 namespace trime {
 
+class PlacedText;
+
 /// The importance of a message, ascending: `info` has the details of each phase, `summary` the result of a run.
 enum class LogLevel { debug, info, summary, warning, error, silent };
 
@@ -58,7 +60,7 @@ public:
   void progress(const ProgressStep& step);
   void set_progress_interval(int interval) { interval_ = interval; }
   /// From now on the log prints each message, except progress, as `rewrite` returns it.
-  void set_rewriter(std::function<std::string(const std::string&)> rewrite) { rewrite_ = std::move(rewrite); }
+  void set_rewriter(std::function<std::string(const PlacedText&)> rewrite) { rewrite_ = std::move(rewrite); }
 
 private:
   bool shows_progress() const { return active_ && level_ <= LogLevel::summary; }
@@ -77,7 +79,7 @@ private:
   double end_ = -1;          ///< expected end, as a time of wall_seconds(); negative: unknown
   double drawn_ = -1;        ///< when the live line was drawn, as a time of wall_seconds()
   std::FILE* stream_;
-  std::function<std::string(const std::string&)> rewrite_; ///< empty: messages are printed as they are
+  std::function<std::string(const PlacedText&)> rewrite_; ///< empty: messages are printed as they are
 };
 
 /// Returns "12 s", "3 min", "2 h 10 min": rounded as an estimate deserves.

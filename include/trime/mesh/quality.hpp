@@ -126,6 +126,8 @@ struct QualitySummary {
   RatioSummary alpha, beta;
   double min_angle_degrees = 60;
   geometry::Vec2 worst_place;         ///< centre of the triangle with the largest alpha
+  double shortest_edge = 0;           ///< its length
+  geometry::Vec2 shortest_place;      ///< its middle; of equally short edges the first in lexicographic order
   double size_mean = 1, size_std = 0; ///< L / (s h(mid)) over edges; s is chosen so that the mean is 1
   std::array<std::int64_t, RatioStatistics::classes> alpha_histogram{};
   std::int64_t bad_triangles = 0;           ///< number of triangles with alpha above 2

@@ -64,6 +64,24 @@ TEST(Agree, AllRanksThrowTheErrorOfTheLowestFailingRank) {
   }
 }
 
+TEST(Agree, AllRanksKnowThePlacesOfTheError) {
+  const Communicator comm = Communicator::world();
+  struct {
+    double x = 1.0 / 3, y = 0.5;
+  } const place;
+  try {
+    run_agreed(comm, [&] {
+      if (comm.rank() == comm.size() - 1)
+        throw GeometryError(fmt::format("too near at {}", Place(place, 3)));
+    });
+    ADD_FAILURE() << "no error was thrown";
+  } catch (const GeometryError& error) {
+    ASSERT_EQ(error.message().places().size(), 1u);
+    EXPECT_EQ(error.message().places()[0].x, place.x);
+    EXPECT_EQ(error.message().text().substr(0, error.message().places()[0].end), "too near at (0.333, 0.5)");
+  }
+}
+
 TEST(Agree, WhatIsNoStandardExceptionEndsAllRanksToo) {
   const Communicator comm = Communicator::world();
   try {

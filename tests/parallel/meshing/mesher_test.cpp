@@ -102,6 +102,8 @@ void expect_same_everywhere(const Case& c, const std::vector<int>& threads_to_tr
       EXPECT_EQ(result.quality.alpha.max, serial.quality.alpha.max);
       EXPECT_EQ(result.quality.min_angle_degrees, serial.quality.min_angle_degrees);
       EXPECT_EQ(result.quality.size_std, serial.quality.size_std);
+      EXPECT_EQ(result.quality.shortest_edge, serial.quality.shortest_edge);
+      EXPECT_EQ(result.quality.shortest_place, serial.quality.shortest_place);
       EXPECT_EQ(result.history.size(), serial.history.size());
     }
     expect_slab(world, result.mesh.point_slab, result.mesh.points.size());

@@ -26,16 +26,20 @@ UserPlaces square_as_given() {
   return places;
 }
 
+std::string explained(const UserPlaces& places, const std::string& message) {
+  return places.explain(PlacedText(message));
+}
+
 TEST(UserPlaces, TellPlacesOfANormalizedContourInItsCoordinates) {
-  EXPECT_EQ(places_of_square().explain("worst triangle at (0.88, 0.9)"),
+  EXPECT_EQ(explained(places_of_square(), fmt::format("worst triangle at {}", Place(Vec2{0.88, 0.9}))),
             "worst triangle at (0.88, 0.9) [coast.xy:4: (1095, 5100)]");
 }
 
 TEST(UserPlaces, TellTheLineOfTheNearestVertex) {
-  EXPECT_EQ(square_as_given().explain("too narrow near (0.88, 0.11): 3 apart"),
+  EXPECT_EQ(explained(square_as_given(), fmt::format("too narrow near {}: 3 apart", Place(Vec2{0.88, 0.11}))),
             "too narrow near (0.88, 0.11) [ring.xy:2]: 3 apart");
-  EXPECT_EQ(square_as_given().explain("at (5e-1, 0.9), (0.1, 0.1000001)"),
-            "at (5e-1, 0.9) [ring.xy:3], (0.1, 0.1000001) [ring.xy:1]");
+  EXPECT_EQ(explained(square_as_given(), fmt::format("at {}, {}", Place(Vec2{0.5, 0.9}), Place(Vec2{0.1, 0.1000001}))),
+            "at (0.5, 0.9) [ring.xy:3], (0.1, 0.1000001) [ring.xy:1]");
 }
 
 TEST(UserPlaces, KnowTheLineWhereTheRingOfALoopBegins) {
@@ -52,10 +56,10 @@ TEST(UserPlaces, KnowTheLineWhereTheRingOfALoopBegins) {
 }
 
 TEST(UserPlaces, LeaveTheRestAlone) {
-  for (const char* text : {"atan2(0.5, 0.5) is no place", "(0.5; 0.5)", "( 0.5, 0.5)", "(0.5, 0.5", "(0.5, x)", "(",
-                           "(nan, 0.5)", "far away at (7, 7)", ""})
-    EXPECT_EQ(square_as_given().explain(text), text);
-  EXPECT_EQ(UserPlaces().explain("at (0.5, 0.5)"), "at (0.5, 0.5)");
+  for (const char* text : {"atan2(0.5, 0.5) is no place", "between (0.5, 0.5) and the box", ""})
+    EXPECT_EQ(explained(square_as_given(), text), text);
+  EXPECT_EQ(explained(square_as_given(), fmt::format("far away at {}", Place(Vec2{7, 7}))), "far away at (7, 7)");
+  EXPECT_EQ(explained(UserPlaces(), fmt::format("at {}", Place(Vec2{0.5, 0.5}))), "at (0.5, 0.5)");
 }
 
 } // namespace

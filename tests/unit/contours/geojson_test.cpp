@@ -48,6 +48,24 @@ TEST(GeoJson, ReadsAllRingsOfACollectionWithTheirLines) {
   EXPECT_TRUE(contour.warnings.empty());
 }
 
+TEST(GeoJson, ErrorsNameTheFeatureAndItsName) {
+  const auto file_with = [](const std::string& properties, const std::string& coordinates) {
+    return R"({"type": "FeatureCollection", "features": [
+      {"type": "Feature", "properties": {"name": "main"},
+       "geometry": {"type": "Polygon", "coordinates": [[[0, 0], [8, 0], [8, 8], [0, 0]]]}},
+      {"type": "Feature", "properties": )" +
+           properties + R"(,
+       "geometry": {"type": "LineString", "coordinates": )" +
+           coordinates + "}}\n]}";
+  };
+  const std::string two = "[[0, 0], [1, 0], [0, 0]]", open = "[[0, 0], [1, 0], [1, 1]]", far = "[[0, 0], [1, 1e300]]";
+  EXPECT_EQ(error_of(file_with("null", two)).find("a.geojson:5 (feature 2): the ring that starts here"), 0u);
+  EXPECT_EQ(error_of(file_with(R"({"name": "Sylt"})", two)).find("a.geojson:5 (feature 2, 'Sylt'): the ring"), 0u);
+  EXPECT_EQ(error_of(file_with(R"({"name": "Sylt"})", open)).find("a.geojson:5 (feature 2, 'Sylt'): expected"), 0u);
+  EXPECT_EQ(error_of(file_with("{}", far)).find("a.geojson:5 (feature 2): expected finite coordinates"), 0u);
+  EXPECT_EQ(error_of(file_with("{}", "[[0, 0], [1, null]]")).find("a.geojson:5 (feature 2): expected numbers"), 0u);
+}
+
 TEST(GeoJson, ReadsBareGeometriesCollectionsOfThemAndClosedLines) {
   const std::string ring = "[[0, 0], [1, 0], [0, 1], [0, 0]]";
   EXPECT_EQ(parse_geojson(geometry_of("Polygon", "[" + ring + "]"), "a").rings.size(), 1u);
