@@ -151,9 +151,10 @@ io::Metadata describe_run(const Provenance& p, const meshing::MeshResult& result
   return {joined({given_attributes(p), record::mesh_attributes(result.mesh, final_retriangulation(result)),
                   record::result_attributes(result), measured_attributes(result, size, measured)}),
           texts(p),
-          {record::history_group(result.history), quality_group(result.quality, p.map), record::checks_group(result.checks),
-           record::bad_triangles_group(result.quality), timers_group(measured.phases), counters_group(measured),
-           record::tags_group(p.origin, result.loops), record::sharp_corners_group(result.features.sharp_corners),
+          {record::history_group(result.history), quality_group(result.quality, p.map),
+           record::checks_group(result.checks), record::bad_triangles_group(result.quality),
+           timers_group(measured.phases), counters_group(measured), record::tags_group(p.origin, result.loops),
+           record::sharp_corners_group(result.features.sharp_corners),
            record::rings_group(p.origin, result.features.loops), normalization_group(p.normalized)}};
 }
 

@@ -38,11 +38,11 @@ void check_periods(const Formula& formula, const RunOptions& options, const geom
     const geometry::Vec2 q = p + shift;
     const double at_p = formula.evaluate(p.x, p.y), at_q = formula.evaluate(q.x, q.y);
     if (!(std::fabs(at_p - at_q) <= same * std::fabs(at_p)))
-      throw ConfigError(
-          fmt::format("{}: expected the same size on both sides of the periodic "
-                      "container, found {:.6g} at {} and {:.6g} at {} for '{}'; use "
-                      "a formula with the period of the container",
-                      options.sizing.expression_place, at_p, Place(p, 6), at_q, Place(q, 6), options.sizing.expression));
+      throw ConfigError(fmt::format("{}: expected the same size on both sides of the periodic "
+                                    "container, found {:.6g} at {} and {:.6g} at {} for '{}'; use "
+                                    "a formula with the period of the container",
+                                    options.sizing.expression_place, at_p, Place(p, 6), at_q, Place(q, 6),
+                                    options.sizing.expression));
   };
   for (int k = 0; k < lines; ++k) {
     const double share = (k + 0.5) / lines;

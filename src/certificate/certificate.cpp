@@ -356,8 +356,7 @@ mesh::Checks certify(const StageView& view, const decomposition::Numbering& numb
   view.state.comm().sum(packed);
   counts = Counts::unpack(packed);
 
-  mesh::Checks checks =
-      triangle_checks(counts, mesh, std::ssize(view.polygon.sites), expectation);
+  mesh::Checks checks = triangle_checks(counts, mesh, std::ssize(view.polygon.sites), expectation);
   add_point_checks(counts, view, std::ssize(junctions), checks);
   const BoundaryTruth truth{
       expectation.shape,      expectation.meshed, view.polygon,     view.size,

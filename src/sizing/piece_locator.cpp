@@ -78,7 +78,9 @@ PieceLocator::PieceLocator(const geometry::Boundary& boundary, const Images& ima
           segments.push_back({&piece, &shift});
       }
   arc_tree_ = BoxHierarchy(arcs_.size(), [&](std::size_t k) { return BoxHierarchy::Item{arcs_[k].box, 0}; });
-  segment_tree_ = BoxHierarchy(segments.size(), [&](std::size_t k) { return BoxHierarchy::Item{segments[k].box(), 0}; });
+  segment_tree_ = BoxHierarchy(segments.size(), [&](std::size_t k) {
+    return BoxHierarchy::Item{segments[k].box(), 0};
+  });
   segments_ = leaves_of(segments);
 }
 

@@ -26,8 +26,8 @@ ExpressionSize::ExpressionSize(const Formula& formula, const geometry::Box& box)
             fmt::format("{}: expected a positive size everywhere in the bounding box of the shape, found {:.6g} at "
                         "{} for '{}'; if the size is wrong outside the shape only, write "
                         "max(FORMULA, SMALLEST SIZE)",
-                        formula.where(), std::isnan(value) ? std::fabs(value) : value,
-                        Place(geometry::Vec2{x, y}, 6), formula.text()));
+                        formula.where(), std::isnan(value) ? std::fabs(value) : value, Place(geometry::Vec2{x, y}, 6),
+                        formula.text()));
       largest = std::fmax(largest, value);
     }
   smallest_ = smallest_share * largest;
