@@ -211,7 +211,7 @@ public:
         keeper_({job.comm, checkpoint_options(job), job.signals, job.timers, job.log}, job.options.checkpoint,
                 job.line.time_limit, {program_name(), job.options.resolved}),
         saved_(keeper_.find(job.line.restart)), // before directories are made
-        series_(series_options(job, input_.domain()), job.comm), points_(expected_points(job.options, boundary())),
+        series_(series_options(job, input_), job.comm), points_(expected_points(job.options, boundary())),
         mesh_(placed_options(job.options, input_, job.comm)) {
     check_output();
     size_ = [&] {
@@ -238,7 +238,7 @@ private:
   const ShapeInput input_;
   CheckpointKeeper keeper_;
   const std::optional<meshing::SavedRun> saved_; // where the run goes on
-  io::MeshSeries series_;
+  formats::MeshSeries series_;
   const double points_;             // about as many as the mesh will have
   const meshing::MeshOptions mesh_; // with places in the container
   BuiltSize size_;

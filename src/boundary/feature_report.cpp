@@ -89,10 +89,9 @@ std::string reasons(const FeatureReport& report) {
   using State = LoopFate::State;
   std::string text;
   if (report.severed > 0)
-    text = fmt::format("{} cut{}, the widest {:.2g} h at ({:.6g}, {:.6g}); meshing.connect = keep holds {}",
+    text = fmt::format("{} cut{}, the widest {:.2g} h at {}; meshing.connect = keep holds {}",
                        counted(report.severed, "neck was", "necks were"), report.closed > 0 ? " or closed" : "",
-                       report.widest_severed, report.severed_place.x, report.severed_place.y,
-                       report.severed == 1 ? "it" : "them");
+                       report.widest_severed, Place(report.severed_place, 6), report.severed == 1 ? "it" : "them");
   const std::string lost = listed({{number_of(report, State::dropped), "loop was dropped", "loops were dropped"},
                                    {number_of(report, State::filled), "hole was filled", "holes were filled"},
                                    {number_of(report, State::merged), "loop was merged", "loops were merged"}});
@@ -100,8 +99,8 @@ std::string reasons(const FeatureReport& report) {
     text += fmt::format("{}{} left out as meshing.components asks for, {:.3g} % of the area", text.empty() ? "" : "; ",
                         counted(report.other_components, "component was", "components were"), 100 * report.other_share);
   if (!lost.empty())
-    text += fmt::format("{}{}, the longest {:.2g} h around at ({:.6g}, {:.6g})", text.empty() ? "" : "; ", lost,
-                        report.lost_perimeter, report.lost_place.x, report.lost_place.y);
+    text += fmt::format("{}{}, the longest {:.2g} h around at {}", text.empty() ? "" : "; ", lost,
+                        report.lost_perimeter, Place(report.lost_place, 6));
   if (const GlobalId split = number_of(report, State::split); split > 0)
     text += (text.empty() ? "" : "; ") + counted(split, "loop was split", "loops were split");
   return text;

@@ -225,9 +225,9 @@ void check_choice_of_component(const geometry::Boundary& boundary, const Feature
   const Vec2 p = options.component_place;
   if (options.components == Components::at &&
       ComponentFinder(boundary, std::vector<char>(boundary.loops.size())).holding(p) == ComponentFinder::none)
-    throw GeometryError(fmt::format("meshing.components = at: the place ({:.9g}, {:.9g}) lies outside of the shape; "
+    throw GeometryError(fmt::format("meshing.components = at: the place {} lies outside of the shape; "
                                     "expected a place in the component that is to be meshed",
-                                    p.x, p.y));
+                                    Place(p)));
 }
 
 void drop_other_components(const geometry::Boundary& boundary, const FeatureRule& rule, DroppedLoops& dropped) {

@@ -43,7 +43,7 @@ private:
   struct Chain {
     Kind kind;
     std::vector<FilePoint> vertices;
-    std::string label = {}; // of an open line
+    std::string label = {}; // label of an open line, for messages
   };
 
   int number_of(const std::optional<std::string>& value);

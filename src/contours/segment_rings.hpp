@@ -17,7 +17,7 @@ public:
   /// @param contour names its source; receives rings and warnings, and outlives this object
   explicit RingBuilder(Contour& contour) : contour_(contour) {}
 
-  /// What messages say behind the line from here on, such as " (feature 3)".
+  /// Sets what later messages say behind the line, such as " (feature 3)".
   void set_feature(const std::string& feature) { feature_ = feature; }
   /// @param marker of the edge from this vertex to the next
   /// @throws GeometryError for coordinates that are too large

@@ -40,9 +40,9 @@ private:
   const LayoutContext& context_;
   double points_, coarsening_;
   sites::Stage reference_; // the polygon as if it were a mesh boundary, without points
-  double corners_ = 0;     // of the boundary
+  double corners_ = 0;     // corners of the boundary
   bool by_strides_ = false;
-  std::vector<double> lengths_; // of the curve from each vertex to its next
+  std::vector<double> lengths_; // length of the curve from each vertex to its next
 };
 
 } // namespace trime::fitting

@@ -134,11 +134,11 @@ private:
     for (int round = 0; round < approach_rounds; ++round) {
       sites::Stage laid = trials_.lay(factor);
       const bool first = trials_.limit_rounds() == 0;
-      if (laid.curves) { // so many limits that a trial without all of them says nothing
+      if (laid.curves) { // a trial without all of these limits says nothing
         search_.expect(crowded_power);
         return {factor, trials_.run(factor)};
       }
-      search_.expect(crowded ? crowded_power : FitRules::uncrowded_power); // trials with other limits tell nothing
+      search_.expect(crowded ? crowded_power : FitRules::uncrowded_power); // trials with other limits say nothing
       if (!trials_.find_limits(laid))
         return {factor, trials_.count(std::move(laid), trials_.coarsening())};
       if (first) {

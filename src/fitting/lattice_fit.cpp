@@ -38,8 +38,8 @@ constexpr double comparable_spacing = 2;
 
 using sites::Stage;
 
-/// @brief Sites on the boundary at size h, or at the next larger size at which they are not more than the points asked
-/// for. Nothing if there is none, or only one that is too large for so many points.
+/// @brief Returns the sites on the boundary at size h, or at the next larger size at which they are at most the points
+/// asked for. Returns nothing if no such size exists, or it is too large for that number of points.
 /// @param fitted becomes that size, and what was made for it
 std::optional<Stage> lay_affordable_boundary(const LayoutContext& context, double h, double expected,
                                              FittedSize& fitted, Fewest& fewest) {

@@ -18,8 +18,8 @@ struct LayoutRules {
   /// [1] Curves of a smaller factor serve while that is smaller by no more than this share: they are simplified a
   /// little less. Not measured.
   static constexpr double finer_curves = 0.13;
-  /// [pieces] Boundaries with so many are simplified by one rank for all. With fewer that takes less than 1 MB of
-  /// memory and some hundredths of a second. Not measured.
+  /// [pieces] Boundaries with at least this number are simplified by one rank for all. With fewer that takes less than
+  /// 1 MB of memory and some hundredths of a second. Not measured.
   static constexpr std::int64_t many_pieces = 2048;
   /// [1] Simplified curves stay by so much nearer to the shape than the certificate wants: factors of sizes are
   /// rounded. Not measured.

@@ -62,9 +62,9 @@ private:
   double points_, coarsening_;
   std::vector<sizing::SizeLimit> limits_; // found so far
   double limits_factor_ = 0;              // for which the search for them began
-  int limit_rounds_ = 0;                  // of that search
+  int limit_rounds_ = 0;                  // rounds of that search
   double limited_curves_ = 0;             // factor of the simplified curves for which it began; 0: of none
-  FittedSize fitted_;                     // of the last layout
+  FittedSize fitted_;                     // made for the last layout
 };
 
 /// @brief Returns the smallest relative size at some places: on the boundary of the shape and on a grid over it. The

@@ -68,7 +68,7 @@ void append_place(std::string& to, Vec2 p) {
   to += ']';
 }
 
-/// What stands before the coordinates of a feature.
+/// The text before the coordinates of a feature.
 struct Head {
   const char* kind;
   GlobalId id;

@@ -27,7 +27,7 @@ struct NamedTime {
   int time = 0;
 };
 
-/// Text of NAME.vtkhdf.series. Bytes of a name that are no UTF-8 are replaced, since JSON cannot hold them.
+/// Text of NAME.vtkhdf.series. Bytes of a name that UTF-8 does not allow are replaced, since JSON cannot hold them.
 std::string file_series_text(std::span<const NamedTime> files) {
   using Json = nlohmann::ordered_json;
   Json list = Json::array();

@@ -37,8 +37,8 @@ struct Verdict {
 Verdict judge_parts(const CurveMap& map, const std::vector<char>& labels, std::span<const NarrowPart> parts,
                     bool keeps_thin);
 
-/// Are the witnesses on the same sides as before, those of one component still connected, and all regions separate?
-/// O(triangles)
+/// Returns whether the witnesses are on the same sides as before, those of one component are still connected, and all
+/// regions are separate. O(triangles)
 bool confirms(const CurveMap& map, const std::vector<char>& labels, const Witnesses& witnesses);
 
 } // namespace trime::generalise

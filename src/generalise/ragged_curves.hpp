@@ -12,9 +12,9 @@
 
 namespace trime::generalise {
 
-/// How curves are thinned.
+/// Says how curves are thinned.
 struct Thinning {
-  double share; ///< of h: vertices nearer to each other may go
+  double share; ///< [h] vertices nearer to each other may go
   enum Extent : char {
     once,
     to_the_end, ///< loops with far too many vertices until nothing changes, and others once
@@ -26,8 +26,8 @@ struct Thinning {
 /// vertices that are even closer together. A run is ragged if it turns by more than GeneraliseRules::ragged_turn over a
 /// distance of `share` h. A vertex stays where it is or is removed. A removed vertex lies within about share h of a
 /// vertex that stays, or within a few times that if thinned to the end. The sharpest turns stay. If the curves were
-/// simple, they stay so, and all nodes on them and all `inside` stay on their side: a vertex stays if any of these lies
-/// in the triangle with its neighbours (vertex_tree.hpp). Null if nothing goes. O(pieces log(pieces))
+/// simple, they stay simple, and all nodes on them and all `inside` stay on their side: a vertex stays if any of these
+/// lies in the triangle with its neighbours (vertex_tree.hpp). Null if nothing goes. O(pieces log(pieces))
 /// @param inside lattice points @throws GeometryError if a size is not positive and finite
 std::unique_ptr<geometry::Boundary> without_ragged_runs(const geometry::Boundary& boundary,
                                                         const sizing::SizeField& size, const geometry::Lattice& lattice,

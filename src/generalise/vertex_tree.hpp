@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds whether a triangle is empty of the vertices of curves, of which more and more are removed.
+// Finds whether a triangle holds vertices of curves, while the vertices are removed one by one.
 #pragma once
 
 #include "trime/core/types.hpp"
@@ -28,7 +28,8 @@ public:
   /// Returns the numbers of the vertices where the pieces of a loop start.
   std::vector<LocalIndex> starts_of_loop(std::size_t loop) const;
 
-  /// Does the closed triangle hold no vertex that is left, besides its corners? Exact. O(log n) for a small triangle.
+  /// Returns whether the closed triangle holds no vertex that is left, except its corners. Exact. O(log n) for a small
+  /// triangle.
   bool is_empty(std::array<LocalIndex, 3> corners) const;
   void remove(LocalIndex vertex) { is_left_[at(vertex)] = 0; }
   void restore(LocalIndex vertex) { is_left_[at(vertex)] = 1; }

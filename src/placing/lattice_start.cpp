@@ -115,16 +115,6 @@ std::pair<double, double> clip_line(Vec2 from, Vec2 direction, const geometry::B
   return {low, high};
 }
 
-/// The least and the largest coordinate of a box in a direction.
-std::pair<double, double> extent_along(Vec2 direction, Vec2 origin, const geometry::Box& box) {
-  double least = INFINITY, largest = -INFINITY;
-  for (const Vec2 corner : {box.min, Vec2{box.max.x, box.min.y}, box.max, Vec2{box.min.x, box.max.y}}) {
-    least = std::min(least, geometry::dot(corner - origin, direction));
-    largest = std::max(largest, geometry::dot(corner - origin, direction));
-  }
-  return {least, largest};
-}
-
 /// The last row or column from `first` on up to a limit, and no more than one period of them.
 std::int64_t last_of(std::int64_t first, double limit, std::int64_t period) {
   const auto last = static_cast<std::int64_t>(std::ceil(limit));

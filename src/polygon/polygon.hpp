@@ -20,11 +20,11 @@ namespace trime::polygon {
 struct DroppedLoops {
   std::vector<char> dropped; ///< per loop of the boundary
   int components = 0, holes = 0;
-  double area = 0;        ///< of the islands plus that of the lakes
+  double area = 0;        ///< area of the islands plus that of the lakes
   double share = 0;       ///< that area over the shape's, as the shape was given
   int others = 0;         ///< components that are left out since one was asked for; not among `components`
   double others_area = 0; ///< their area, without their holes
-  double change = 0;      ///< of the shape's area: lakes minus islands
+  double change = 0;      ///< change of the shape's area: lakes minus islands
   bool any() const { return components + holes + others > 0; }
 };
 
@@ -88,7 +88,7 @@ struct Simplification {
   double cut_area = 0, closed_area = 0; ///< areas in squared units of the coordinates
   double largest_move = 0;              ///< longest move of a vertex, over h
   double coarseness = 1;                ///< h for which this was done, over h of the mesh
-  std::int64_t severed = 0;             ///< of what was cut or closed: parts that joined or separated what stays
+  std::int64_t severed = 0;             ///< parts that joined or separated what stays, and were cut or closed
   double widest_severed = 0;            ///< [h] the least width of the widest of them
   geometry::Vec2 severed_place;         ///< where that is
   std::int64_t held = 0;                ///< narrow parts that stay since they join or separate; in the pass with most

@@ -54,6 +54,32 @@ void add_summary(Attributes& to, const std::string& name, const mesh::RatioSumma
   to.push_back({name + "_std", s.std});
 }
 
+/// Returns what became of the features of the boundary.
+Attributes feature_attributes(const boundary::FeatureReport& features) {
+  return {{"dropped_islands", features.dropped_islands},
+          {"dropped_lakes", features.dropped_lakes},
+          {"dropped_area", features.dropped_area},
+          {"corners_left_out", features.corners_left_out},
+          {"largest_deviation", features.largest_deviation},
+          {"segments_halved", features.segments_halved},
+          {"size_limits", features.size_limits},
+          {"lowest_size_share", features.lowest_size_share},
+          {"narrow_cut", features.cut},
+          {"narrow_closed", features.closed},
+          {"narrow_widened", features.widened},
+          {"other_components", features.other_components},
+          {"narrow_held", features.held},
+          {"narrow_severed", features.severed},
+          {"widest_severed", features.widest_severed},
+          {"severed_x", features.severed_place.x},
+          {"severed_y", features.severed_place.y},
+          {"holes_filled", features.filled},
+          {"vertices_smoothed", features.smoothed},
+          {"coarseness", features.coarseness},
+          {"lost_share", features.lost_share},
+          {"added_share", features.added_share}};
+}
+
 } // namespace
 
 Attributes format_attributes() {
@@ -75,47 +101,28 @@ Attributes mesh_attributes(const mesh::DistributedMesh& mesh, int retriangulatio
 }
 
 Attributes result_attributes(const meshing::MeshResult& result) {
-  return {{"iterations", std::int64_t{result.history.empty() ? 0 : result.history.back().sweep}},
-          {"stop_reason", sweep::to_string(result.stop_reason)},
-          {"requested_points", result.requested_points},
-          {"count_reason", result.count_reason},
-          {"start_reason", result.start_reason},
-          {"edge_length", result.edge_length},
-          {"corners", result.corners},
-          {"components", std::int64_t{result.components}},
-          {"holes", std::int64_t{result.holes}},
-          {"given_components", std::int64_t{result.features.given_components}},
-          {"given_holes", std::int64_t{result.features.given_holes}},
-          {"shape_area", result.shape_area},
-          {"cleanup_patches", result.cleanup.patches},
-          {"cleanup_better", result.cleanup.better},
-          {"cleanup_moved", result.cleanup.moved},
-          {"cleanup_inserted", result.cleanup.inserted},
-          {"cleanup_deleted", result.cleanup.deleted},
-          {"cleanup_on_boundary", result.cleanup.on_boundary},
-          {"cleanup_left", result.cleanup.left},
-          {"dropped_islands", result.features.dropped_islands},
-          {"dropped_lakes", result.features.dropped_lakes},
-          {"dropped_area", result.features.dropped_area},
-          {"corners_left_out", result.features.corners_left_out},
-          {"largest_deviation", result.features.largest_deviation},
-          {"segments_halved", result.features.segments_halved},
-          {"size_limits", result.features.size_limits},
-          {"lowest_size_share", result.features.lowest_size_share},
-          {"narrow_cut", result.features.cut},
-          {"narrow_closed", result.features.closed},
-          {"narrow_widened", result.features.widened},
-          {"other_components", result.features.other_components},
-          {"narrow_held", result.features.held},
-          {"narrow_severed", result.features.severed},
-          {"widest_severed", result.features.widest_severed},
-          {"severed_x", result.features.severed_place.x},
-          {"severed_y", result.features.severed_place.y},
-          {"holes_filled", result.features.filled},
-          {"vertices_smoothed", result.features.smoothed},
-          {"coarseness", result.features.coarseness},
-          {"lost_share", result.features.lost_share},
-          {"added_share", result.features.added_share}};
+  Attributes attributes = {{"iterations", std::int64_t{result.history.empty() ? 0 : result.history.back().sweep}},
+                           {"stop_reason", sweep::to_string(result.stop_reason)},
+                           {"requested_points", result.requested_points},
+                           {"count_reason", result.count_reason},
+                           {"start_reason", result.start_reason},
+                           {"edge_length", result.edge_length},
+                           {"corners", result.corners},
+                           {"components", std::int64_t{result.components}},
+                           {"holes", std::int64_t{result.holes}},
+                           {"given_components", std::int64_t{result.features.given_components}},
+                           {"given_holes", std::int64_t{result.features.given_holes}},
+                           {"shape_area", result.shape_area},
+                           {"cleanup_patches", result.cleanup.patches},
+                           {"cleanup_better", result.cleanup.better},
+                           {"cleanup_moved", result.cleanup.moved},
+                           {"cleanup_inserted", result.cleanup.inserted},
+                           {"cleanup_deleted", result.cleanup.deleted},
+                           {"cleanup_on_boundary", result.cleanup.on_boundary},
+                           {"cleanup_left", result.cleanup.left}};
+  const Attributes features = feature_attributes(result.features);
+  attributes.insert(attributes.end(), features.begin(), features.end());
+  return attributes;
 }
 
 io::MetadataGroup history_group(const std::vector<sweep::SweepRecord>& history) {

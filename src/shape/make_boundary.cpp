@@ -156,7 +156,6 @@ private:
 
   int index_of(const Arrangement::Piece& piece) const { return placed_[piece.part].index; }
   bool holds(RegionState& state, const std::vector<int>& places) const;
-  bool are_uncut(const std::vector<int>& places) const;
   geometry::BoxTree tree_of_places() const;
   /// Where a vertex lies once it is an exact image of its node.
   Vec2 place_of(LocalIndex vertex) const { return nodes_->point(nodes_->node(vertex)) + nodes_->shift(vertex); }
@@ -205,13 +204,6 @@ bool BoundaryMaker::holds(RegionState& state, const std::vector<int>& places) co
     if (const int index = placed_[static_cast<std::size_t>(place)].index; index != cut_index)
       state.leave(index);
   return held;
-}
-
-/// Do all of these placed parts lie in a container that is not cut, or is the part that cuts it one of them?
-bool BoundaryMaker::are_uncut(const std::vector<int>& places) const {
-  return placed_.back().index != cut_index || std::any_of(places.begin(), places.end(), [&](int place) {
-           return placed_[static_cast<std::size_t>(place)].index == cut_index;
-         });
 }
 
 geometry::BoxTree BoundaryMaker::tree_of_places() const {

@@ -158,8 +158,8 @@ class Progress(unittest.TestCase):
                 lines = done.stdout.splitlines()
                 self.assertTrue(all(line.startswith("warning: ") for line in lines), done.stdout)
                 self.assertRegex(lines[0], r"two\.ini:2: 'region' in \[shape\] has a new name; write 'geometry = two'")
-                pieces = [line for line in lines if line.startswith("warning: 1 component became 2: 1 neck was cut, the "
-                                                                    "widest 0.0")]
+                start = "warning: 1 component became 2: 1 neck was cut, the widest 0.0"
+                pieces = [line for line in lines if line.startswith(start)]
                 self.assertEqual(len(pieces), 1, done.stdout)
 
     def test_quiet_is_silent(self):

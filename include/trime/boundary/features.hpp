@@ -118,7 +118,7 @@ struct FeatureReport {
 /// Returns one line of text for each kind of change; no lines for a boundary that was kept as it is.
 std::vector<std::string> describe(const FeatureReport& report);
 
-/// Has the mesh other components or holes than the shape as it was given, or was a loop lost or split?
+/// Returns whether components or holes of the mesh differ from those of the given shape, or a loop was lost or split.
 bool changes_topology(const FeatureReport& report);
 
 /// Returns a warning that says what of the shape is missing in the mesh, and what the user can do. Numbers of

@@ -42,7 +42,7 @@ struct Place {
 class PlacedText {
 public:
   struct Named {
-    std::size_t end; ///< of "(x, y)" in the text
+    std::size_t end; ///< position after "(x, y)" in the text
     double x, y;
   };
 
