@@ -16,7 +16,7 @@ namespace trime::fitting {
 struct LatticeFit {
   sites::Stage stage;
   double spacing = 1;
-  placing::LatticeRuns runs; ///< those of this rank with that spacing, if they were found on the way
+  placing::LatticeRuns runs; ///< runs of this rank with that spacing, if they were found on the way
   std::string shortage;      ///< why there will be fewer points than asked for; empty if not
   FittedSize fitted;         ///< by which the stage was laid
 };
