@@ -84,6 +84,8 @@ private:
     LocalIndex left_out = 0; ///< corners between the site and its next
     double deviation = 0;    ///< largest deviation of these corners, over the local size
   };
+  /// Returns the sites in the order of the result, loop by loop. @param loop_start receives where each loop begins
+  std::vector<LocalIndex> along_loops(std::vector<LocalIndex>& loop_start) const;
   /// @param result receives the site where the chord starts, without its neighbours
   ChordRecord chord_from(LocalIndex k, polygon::BoundarySite& result) const;
   [[noreturn]] void fail(const Cut& cut) const;

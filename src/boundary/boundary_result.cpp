@@ -46,23 +46,28 @@ BoundaryRefiner::ChordRecord BoundaryRefiner::chord_from(LocalIndex k, polygon::
   return out;
 }
 
-BoundarySites BoundaryRefiner::result() const {
-  BoundarySites out;
-  out.periods = boundary_.periods;
-  out.halvings = halvings_;
-  out.rounds = rounds_;
-  out.overfull = overfull_;
+std::vector<LocalIndex> BoundaryRefiner::along_loops(std::vector<LocalIndex>& loop_start) const {
   std::vector<LocalIndex> order;
   order.reserve(sites_.size());
   for (const LocalIndex first : loop_first_) {
-    out.loop_start.push_back(static_cast<LocalIndex>(order.size()));
+    loop_start.push_back(static_cast<LocalIndex>(order.size()));
     LocalIndex k = first;
     do {
       order.push_back(k);
       k = sites_[k].next;
     } while (k != first);
   }
-  out.loop_start.push_back(static_cast<LocalIndex>(order.size()));
+  loop_start.push_back(static_cast<LocalIndex>(order.size()));
+  return order;
+}
+
+BoundarySites BoundaryRefiner::result() const {
+  BoundarySites out;
+  out.periods = boundary_.periods;
+  out.halvings = halvings_;
+  out.rounds = rounds_;
+  out.overfull = overfull_;
+  const std::vector<LocalIndex> order = along_loops(out.loop_start);
   std::vector<ChordRecord> chords(order.size());
   out.sites.resize(order.size());
   thread_loop(std::ssize(order), chords_in_a_row, [&](std::ptrdiff_t item, int) {

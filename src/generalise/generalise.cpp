@@ -288,7 +288,23 @@ struct Passed {
   bool only_thinned;                   ///< there were no narrow parts, or nothing could improve them
 };
 
-/// Once over the boundary; null if nothing is to be done.
+/// Plans the cuts of a pass. Once nothing narrow is left inside, it plans to close what is narrow outside, too.
+Plan plan_pass(const CurveMap& map, const std::vector<char>& labels, const Regions& regions, const Choice& choice,
+               Corners& corners) {
+  Plan plan = plan_cuts(map, labels, regions, choice, corners);
+  if (!plan.changed.empty())
+    return plan;
+  Plan more = plan_closings(map, labels, regions, choice, corners);
+  plan.changed = std::move(more.changed);
+  std::move(more.apart.begin(), more.apart.end(), std::back_inserter(plan.apart));
+  plan.rest = std::move(more.rest);
+  plan.witnesses = std::move(more.witnesses);
+  more.counts.add(plan.counts);
+  plan.counts = more.counts;
+  return plan;
+}
+
+/// Makes one pass over the boundary. Returns null if nothing is to be done.
 Passed pass_over(const Boundary& boundary, const sizing::SizeField& size, const geometry::Lattice& lattice,
                  const Choice& choice, std::span<const Vec2> inside, Corners& corners) {
   const std::unique_ptr<const Boundary> thin =
@@ -307,16 +323,7 @@ Passed pass_over(const Boundary& boundary, const sizing::SizeField& size, const 
   counts.filled = fill_small_holes(map, *regions, filled);
   if (counts.filled > 0)
     regions.emplace(map, filled);
-  Plan plan = plan_cuts(map, filled, *regions, choice, corners);
-  if (plan.changed.empty()) { // slits are looked for once nothing narrow is left inside
-    Plan more = plan_closings(map, filled, *regions, choice, corners);
-    plan.changed = std::move(more.changed);
-    std::move(more.apart.begin(), more.apart.end(), std::back_inserter(plan.apart));
-    plan.rest = std::move(more.rest);
-    plan.witnesses = std::move(more.witnesses);
-    more.counts.add(plan.counts);
-    plan.counts = more.counts;
-  }
+  Plan plan = plan_pass(map, filled, *regions, choice, corners);
   corners.held = std::max(corners.held, plan.counts.held);
   const std::vector<char> labels = follow_connected(map, filled, plan);
   if (labels.empty())

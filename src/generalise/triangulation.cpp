@@ -251,50 +251,50 @@ bool Triangulation::find_crossed(LocalIndex a, LocalIndex b, std::vector<HalfEdg
   }
 }
 
+Triangulation::HalfEdge Triangulation::flip_to_edge(LocalIndex a, LocalIndex b) {
+  std::vector<HalfEdge> crossed;
+  if (!find_crossed(a, b, crossed))
+    return none;
+  // Flips may rename half-edges, so edges are remembered by their ends.
+  std::deque<std::array<LocalIndex, 2>> ways;
+  for (const HalfEdge e : crossed)
+    ways.push_back({origin(e), target(e)});
+  std::vector<std::array<LocalIndex, 2>> made;
+  for (std::size_t bound = 4 * ways.size() * ways.size() + 16; !ways.empty() && bound > 0; --bound) {
+    const auto [u, v] = ways.front();
+    ways.pop_front();
+    const HalfEdge e = find_edge(u, v);
+    if (!is_strictly_convex(e)) {
+      ways.push_back({u, v});
+      continue;
+    }
+    const LocalIndex c = origin(previous(e)), d = origin(previous(twin(e)));
+    flip(e);
+    const bool ends = c == a || c == b || d == a || d == b;
+    if (!ends && side(a, b, c) * side(a, b, d) < 0)
+      ways.push_back({c, d});
+    else
+      made.push_back({c, d});
+  }
+  const HalfEdge edge = find_edge(a, b);
+  if (edge != none)
+    for (const auto& [u, v] : made)
+      if (const HalfEdge e = find_edge(u, v); e != none)
+        doubtful_.push_back(e);
+  return edge;
+}
+
 bool Triangulation::constrain(LocalIndex a, LocalIndex b, std::int32_t mark) {
   if (a == b)
     return false;
   HalfEdge edge = find_edge(a, b);
-  if (edge == none) {
-    std::vector<HalfEdge> crossed;
-    if (!find_crossed(a, b, crossed))
-      return false;
-    // Flips may rename half-edges, so edges are remembered by their ends.
-    std::deque<std::array<LocalIndex, 2>> ways;
-    for (const HalfEdge e : crossed)
-      ways.push_back({origin(e), target(e)});
-    std::vector<std::array<LocalIndex, 2>> made;
-    for (std::size_t bound = 4 * ways.size() * ways.size() + 16; !ways.empty() && bound > 0; --bound) {
-      const auto [u, v] = ways.front();
-      ways.pop_front();
-      const HalfEdge e = find_edge(u, v);
-      if (!is_strictly_convex(e)) {
-        ways.push_back({u, v});
-        continue;
-      }
-      const LocalIndex c = origin(previous(e)), d = origin(previous(twin(e)));
-      flip(e);
-      const bool ends = c == a || c == b || d == a || d == b;
-      if (!ends && side(a, b, c) * side(a, b, d) < 0)
-        ways.push_back({c, d});
-      else
-        made.push_back({c, d});
-    }
-    edge = find_edge(a, b);
-    if (edge == none)
-      return false;
-    mark_[at(edge)] = mark;
-    mark_[at(twin(edge))] = -1 - mark;
-    for (const auto& [u, v] : made)
-      if (const HalfEdge e = find_edge(u, v); e != none)
-        doubtful_.push_back(e);
-    legalize();
-    return true;
-  }
-  if (is_constrained(edge))
+  if (edge == none)
+    edge = flip_to_edge(a, b);
+  if (edge == none || is_constrained(edge))
     return false;
   mark_[at(edge)] = mark;
   mark_[at(twin(edge))] = -1 - mark;
+  legalize();
   return true;
 }
 

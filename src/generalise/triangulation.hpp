@@ -86,6 +86,8 @@ private:
   bool is_strictly_convex(HalfEdge e) const;
   void flip(HalfEdge e);
   bool find_crossed(LocalIndex a, LocalIndex b, std::vector<HalfEdge>& crossed) const;
+  /// Flips edges until a and b share one; those that it makes become doubtful. @return the edge, or `none`
+  HalfEdge flip_to_edge(LocalIndex a, LocalIndex b);
   int side(LocalIndex a, LocalIndex b, LocalIndex c) const;
 
   geometry::Lattice lattice_;

@@ -114,6 +114,42 @@ void VertexMoves::calm(std::vector<Vec2>& shifts) const {
   }
 }
 
+void VertexMoves::place_all(const std::vector<Vec2>& shifts) {
+  for (LocalIndex v = 4; v < mesh_.vertex_count(); ++v) {
+    const Vec2 p = lattice_.snap(mesh_.point(root(v)) + shifts[at(root(v))]);
+    places_[at(v)] = {std::clamp(p.x, bounds_.min.x, bounds_.max.x), std::clamp(p.y, bounds_.min.y, bounds_.max.y)};
+  }
+}
+
+std::vector<LocalIndex> VertexMoves::turned_over() const {
+  std::vector<LocalIndex> bad;
+  for (LocalIndex t = 0; t < mesh_.triangle_count(); ++t)
+    if (turns_over(t))
+      for (HalfEdge e = 3 * t; e < 3 * t + 3; ++e)
+        bad.push_back(root(mesh_.origin(e)));
+  std::sort(bad.begin(), bad.end());
+  bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
+  return bad;
+}
+
+void VertexMoves::shorten(std::vector<Vec2>& shifts) {
+  place_all(shifts);
+  for (int round = 0; round <= GeneraliseRules::displacement_rounds; ++round) {
+    const double factor = round == GeneraliseRules::displacement_rounds ? 0 : 0.5;
+    const std::vector<LocalIndex> bad = turned_over();
+    if (bad.empty())
+      break;
+    bool stopped = false;
+    for (const LocalIndex v : bad) {
+      stopped |= shifts[at(v)] != Vec2{};
+      shifts[at(v)] = factor * shifts[at(v)];
+    }
+    place_all(shifts);
+    if (factor == 0 && stopped)
+      --round; // those next to them follow
+  }
+}
+
 std::int64_t VertexMoves::widen(std::vector<NarrowPart> parts) {
   parts.erase(std::remove_if(parts.begin(), parts.end(), [&](const NarrowPart& part) { return !is_too_narrow(part); }),
               parts.end());
@@ -124,33 +160,7 @@ std::int64_t VertexMoves::widen(std::vector<NarrowPart> parts) {
   for (const NarrowPart& part : parts)
     widen_one(part, shifts);
   calm(shifts);
-  const auto place = [&](LocalIndex v) {
-    const Vec2 p = lattice_.snap(mesh_.point(root(v)) + shifts[at(root(v))]);
-    places_[at(v)] = {std::clamp(p.x, bounds_.min.x, bounds_.max.x), std::clamp(p.y, bounds_.min.y, bounds_.max.y)};
-  };
-  for (LocalIndex v = 4; v < mesh_.vertex_count(); ++v)
-    place(v);
-  for (int round = 0; round <= GeneraliseRules::displacement_rounds; ++round) {
-    const double factor = round == GeneraliseRules::displacement_rounds ? 0 : 0.5;
-    std::vector<LocalIndex> bad;
-    for (LocalIndex t = 0; t < mesh_.triangle_count(); ++t)
-      if (turns_over(t))
-        for (HalfEdge e = 3 * t; e < 3 * t + 3; ++e)
-          bad.push_back(root(mesh_.origin(e)));
-    if (bad.empty())
-      break;
-    std::sort(bad.begin(), bad.end());
-    bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
-    bool stopped = false;
-    for (const LocalIndex v : bad) {
-      stopped |= shifts[at(v)] != Vec2{};
-      shifts[at(v)] = factor * shifts[at(v)];
-    }
-    for (LocalIndex v = 4; v < mesh_.vertex_count(); ++v)
-      place(v);
-    if (factor == 0 && stopped)
-      --round; // those next to them follow
-  }
+  shorten(shifts);
   any_ = false;
   for (LocalIndex v = 4; v < mesh_.vertex_count(); ++v)
     any_ |= length(places_[at(v)] - mesh_.point(v)) > GeneraliseRules::least_shift * map_.size(v) && root(v) == v;

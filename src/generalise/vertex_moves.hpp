@@ -47,6 +47,12 @@ private:
   bool leaves_a_loop(HalfEdge e) const;
   void merge(LocalIndex u, LocalIndex v);
   bool turns_over(LocalIndex t) const;
+  /// Moves all vertices of the map by their shifts, onto the lattice and into the bounds.
+  void place_all(const std::vector<geometry::Vec2>& shifts);
+  /// Makes shifts smaller until no triangle turns over, and places the vertices.
+  void shorten(std::vector<geometry::Vec2>& shifts);
+  /// Returns the roots of the vertices of triangles that turn over, sorted.
+  std::vector<LocalIndex> turned_over() const;
   /// The sides of a narrow part, and the ends of its slits.
   struct Sides {
     struct AtVertex {

@@ -105,6 +105,7 @@ public:
 
 } // namespace trime
 
+/// @cond
 template <>
 struct fmt::formatter<trime::Place> {
   constexpr auto parse(fmt::format_parse_context& context) { return context.begin(); }
@@ -114,6 +115,7 @@ struct fmt::formatter<trime::Place> {
     return std::copy(text.begin(), text.end(), context.out());
   }
 };
+/// @endcond
 
 /// Checks a condition that only a mistake of the program can violate; also in release builds. Further arguments are a
 /// format string and values.
