@@ -23,21 +23,24 @@ std::string text_of(const std::optional<Box>& box) {
 /// Returns the facts on which the ranks must agree, one on each line.
 std::vector<std::string> items_of(const Shape& shape, const MeshOptions& options) {
   const boundary::FeatureOptions& features = options.features;
-  std::vector<std::string> items{"shape " + shape.text(),
-                                 "points " + text_of(options.points),
-                                 "edge_length " + text_of(options.edge_length),
-                                 fmt::format("method {}", static_cast<int>(options.method)),
-                                 "min_size " + text_of(options.min_size),
-                                 "max_size " + text_of(options.max_size),
-                                 "container " + text_of(options.container),
-                                 fmt::format("periodic_x, periodic_y {}, {}", options.periodic_x, options.periodic_y),
-                                 fmt::format("max_sweeps {}", options.max_sweeps),
-                                 fmt::format("worst_alpha {}", options.worst_alpha),
-                                 fmt::format("seed {}", options.seed),
-                                 fmt::format("features {} {} {} {} {} {}", features.corner_angle, features.keep_all,
-                                             features.refine_narrow, features.tolerance, features.within,
-                                             static_cast<int>(features.narrow)),
-                                 fmt::format("{} fixed points", options.fixed_points.size())};
+  std::vector<std::string> items{
+      "shape " + shape.text(),
+      "points " + text_of(options.points),
+      "edge_length " + text_of(options.edge_length),
+      fmt::format("method {}", static_cast<int>(options.method)),
+      "min_size " + text_of(options.min_size),
+      "max_size " + text_of(options.max_size),
+      "container " + text_of(options.container),
+      fmt::format("periodic_x, periodic_y {}, {}", options.periodic_x, options.periodic_y),
+      fmt::format("max_sweeps {}", options.max_sweeps),
+      fmt::format("worst_alpha {}", options.worst_alpha),
+      fmt::format("seed {}", options.seed),
+      fmt::format("features {} {} {} {} {} {}", features.corner_angle, features.keep_all, features.refine_narrow,
+                  features.tolerance, features.within, static_cast<int>(features.narrow)),
+      fmt::format("connections {}, components {} at ({}, {}), max_loss {}", static_cast<int>(features.connect),
+                  static_cast<int>(features.components), features.component_place.x, features.component_place.y,
+                  text_of(features.max_loss)),
+      fmt::format("{} fixed points", options.fixed_points.size())};
   for (const Vec2 p : options.fixed_points)
     items.push_back(fmt::format("fixed point ({}, {})", p.x, p.y));
   return items;
@@ -77,6 +80,8 @@ void check_values(const MeshOptions& options) {
   check_positive(options.edge_length, "edge_length");
   check_positive(options.min_size, "min_size");
   check_positive(options.max_size, "max_size");
+  if (const std::optional<double>& loss = options.features.max_loss; loss && !(*loss >= 0 && *loss <= 1))
+    throw ConfigError(fmt::format("MeshOptions::features.max_loss: expected a share from 0 to 1, found {}", *loss));
   if (options.min_size && options.max_size && *options.min_size > *options.max_size)
     throw ConfigError(fmt::format("MeshOptions: expected min_size <= max_size, found {} and {}", *options.min_size,
                                   *options.max_size));

@@ -393,6 +393,13 @@ class Check(unittest.TestCase):
         self.assertEqual(code, 5, text)
         self.assertIn("corners", self.wrong(text))
 
+    def test_a_limit_of_what_may_be_lost(self):
+        done = run(ROOT / "configs" / "coast.ini", f"meshing.points={POINTS}", "meshing.max_loss=0.5",
+                   f"output.directory={self.work}", "output.name=limited")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        code, text = check(self.work / "limited.h5")
+        self.assertEqual(code, 0, text)
+
     def test_steps_have_no_certificate(self):
         self.mesh("circle")
         done = run(ROOT / "configs" / "circle.ini", f"meshing.points={POINTS}", f"output.directory={self.work}",

@@ -200,7 +200,13 @@ TEST(FacadeErrors, Options) {
     const GlobalId points = 100 + world.rank();
     expect_in("rank 0 has 'points 100', another one 'points 101'",
               error_of<ConfigError>(mesh_with({.points = points})));
+    MeshOptions lossy{.points = 100};
+    lossy.features.max_loss = world.is_root() ? 0.1 : 0.2;
+    expect_in("max_loss 0.1', another one", error_of<ConfigError>(mesh_with(lossy)));
   }
+  MeshOptions beyond{.points = 100};
+  beyond.features.max_loss = 1.5;
+  expect_in("expected a share from 0 to 1, found 1.5", error_of<ConfigError>(mesh_with(beyond)));
 }
 
 TEST(FacadeErrors, Shapes) {
