@@ -213,7 +213,11 @@ MapSystem project_contours(const RunOptions& options, std::span<Contour> contour
 std::optional<Vec2> on_earth(const MapSystem& map, Vec2 place) {
   if (map.crs.empty() || projection::is_geographic(map.crs))
     return std::nullopt;
-  return projection::Transform(projection::lon_lat, map.crs).undo(place);
+  try {
+    return projection::Transform(projection::lon_lat, map.crs).undo(place);
+  } catch (const ConfigError&) { // a local grid, which lies nowhere on the Earth
+    return std::nullopt;
+  }
 }
 
 } // namespace trime::app

@@ -106,14 +106,14 @@ double rounded(double count) {
 
 /// Prints what --dry-run finds out about the boundary.
 void print_outlook(const meshing::Outlook& outlook, Log& log) {
-  for (const std::string& line : boundary::describe(outlook.features))
-    log.summary("boundary: {}", line);
+  for (const PlacedText& line : boundary::describe(outlook.features))
+    log.summary("boundary: {}", line.formatted());
   if (outlook.keeps_all) {
     log.summary("nothing of the shape is simplified at this size");
     return;
   }
-  if (const std::string warning = boundary::loss_warning(outlook.features); !warning.empty())
-    log.warning("{}", warning);
+  if (const PlacedText warning = boundary::loss_warning(outlook.features); !warning.text().empty())
+    log.warning("{}", warning.formatted());
   log.summary("{} {:.0f} points ({} {:.2g}) keep everything", outlook.is_enough ? "about" : "more than about",
               rounded(outlook.keeping_points), outlook.is_enough ? "edge_length =" : "edge_length below",
               outlook.keeping_edge_length);
@@ -262,8 +262,8 @@ ExitCode MeshRun::preview() {
   const meshing::Outlook outlook = mesher.outlook();
   if (is_dry_run)
     print_outlook(outlook, job_.log);
-  else if (const std::string warning = boundary::loss_warning(outlook.features); !warning.empty())
-    job_.log.warning("{}", warning);
+  else if (const PlacedText warning = boundary::loss_warning(outlook.features); !warning.text().empty())
+    job_.log.warning("{}", warning.formatted());
   return ExitCode::done;
 }
 
@@ -302,6 +302,7 @@ ExitCode MeshRun::run() {
                               boundary(),
                               input_.normalized,
                               input_.map,
+                              job_.comm.is_root(),
                               {boundary().part_names,
                                input_.domain().part_markers(),
                                job_.options.geometry,

@@ -135,9 +135,9 @@ io::MetadataGroup counters_group(const Measurements& measured) {
 }
 
 /// The quality, with the shortest edge on the Earth if the mesh is in a plane of a map.
-io::MetadataGroup quality_group(const mesh::QualitySummary& quality, const MapSystem& map) {
+io::MetadataGroup quality_group(const mesh::QualitySummary& quality, const Provenance& p) {
   io::MetadataGroup group = record::quality_group(quality);
-  if (const auto place = on_earth(map, quality.shortest_place)) {
+  if (const auto place = p.is_root ? on_earth(p.map, quality.shortest_place) : std::nullopt) {
     group.attributes.push_back({"shortest_edge_longitude", place->x});
     group.attributes.push_back({"shortest_edge_latitude", place->y});
   }
@@ -151,10 +151,9 @@ io::Metadata describe_run(const Provenance& p, const meshing::MeshResult& result
   return {joined({given_attributes(p), record::mesh_attributes(result.mesh, final_retriangulation(result)),
                   record::result_attributes(result), measured_attributes(result, size, measured)}),
           texts(p),
-          {record::history_group(result.history), quality_group(result.quality, p.map),
-           record::checks_group(result.checks), record::bad_triangles_group(result.quality),
-           timers_group(measured.phases), counters_group(measured), record::tags_group(p.origin, result.loops),
-           record::sharp_corners_group(result.features.sharp_corners),
+          {record::history_group(result.history), quality_group(result.quality, p), record::checks_group(result.checks),
+           record::bad_triangles_group(result.quality), timers_group(measured.phases), counters_group(measured),
+           record::tags_group(p.origin, result.loops), record::sharp_corners_group(result.features.sharp_corners),
            record::rings_group(p.origin, result.features.loops), normalization_group(p.normalized)}};
 }
 
@@ -164,7 +163,7 @@ io::Metadata describe_step(const Provenance& p, const meshing::Snapshot& snapsho
                         {"complete", std::int64_t{0}}};
   return {joined({given_attributes(p), record::mesh_attributes(snapshot.mesh, snapshot.retriangulation), step}),
           texts(p),
-          {quality_group(snapshot.quality, p.map), record::tags_group(p.origin, snapshot.loops),
+          {quality_group(snapshot.quality, p), record::tags_group(p.origin, snapshot.loops),
            normalization_group(p.normalized)}};
 }
 

@@ -27,6 +27,7 @@ struct Provenance {
   const geometry::Boundary& boundary;
   const std::vector<NormalizedPart>& normalized;
   const MapSystem& map;
+  bool is_root;          ///< only rank 0 asks PROJ, since the other ranks' metadata is not written
   record::Origin origin; ///< ring_lines: UserPlaces::ring_lines
 };
 

@@ -49,8 +49,8 @@ std::string count_text(const meshing::MeshResult& result) {
 /// Returns what was done about features below the resolution.
 std::string boundary_text(const meshing::MeshResult& result) {
   std::string text;
-  for (const std::string& line : boundary::describe(result.features))
-    text += "Boundary: " + line + "\n";
+  for (const PlacedText& line : boundary::describe(result.features))
+    text += "Boundary: " + line.formatted() + "\n";
   return text;
 }
 

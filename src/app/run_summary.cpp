@@ -61,9 +61,9 @@ std::string quality_text(const mesh::QualitySummary& q) {
 }
 
 /// The shortest edge, which limits the time step of many solvers.
-std::string shortest_text(const mesh::QualitySummary& q, const MapSystem& map) {
+std::string shortest_text(const mesh::QualitySummary& q, const Provenance& p) {
   std::string text = fmt::format("edge of length {:.6g} at {}", q.shortest_edge, Place(q.shortest_place, 10));
-  if (const auto place = on_earth(map, q.shortest_place))
+  if (const auto place = p.is_root ? on_earth(p.map, q.shortest_place) : std::nullopt)
     text += fmt::format("; longitude {:.8g}, latitude {:.8g}", place->x, place->y);
   return text;
 }
@@ -151,7 +151,7 @@ std::string run_summary(const RunFacts& facts) {
   std::string text = line("Run", start_text(facts.provenance)) + line("Shape", shape_text(facts.provenance)) +
                      line("Mesh", mesh_text(result)) + line("Size", size_text(facts.size)) +
                      line("Quality", quality_text(result.quality)) +
-                     line("Shortest", shortest_text(result.quality, facts.provenance.map)) +
+                     line("Shortest", shortest_text(result.quality, facts.provenance)) +
                      line("Boundary", boundary_text(result.features)) +
                      line("Names", names_text(facts.provenance.boundary, facts.part_edges)) +
                      line("Sweeps", fmt::format("{}: {}", sweeps, sweep::to_string(result.stop_reason))) +

@@ -197,6 +197,10 @@ meshing::MeshOptions placed_options(const RunOptions& options, const ShapeInput&
   });
   read = contours::contour_of_bytes(comm.broadcast(contours::to_bytes(read)));
   geometry::Vec2& place = mesh.features.component_place = read.rings[0].points[0];
+  if (input.normalized.size() > 1)
+    throw ConfigError(
+        "components = at X Y: several contours are normalised, each by its own scale, so a place of the files "
+        "is not unique; expected one such contour, or normalize = false");
   if (input.normalized.size() == 1)
     place = input.normalized[0].scale * place + input.normalized[0].shift;
   return mesh;

@@ -193,9 +193,9 @@ bool changes_topology(const FeatureReport& report) {
                      [](const LoopFate& fate) { return fate.is_lost() || fate.state == LoopFate::State::split; });
 }
 
-std::string loss_warning(const FeatureReport& report) {
+PlacedText loss_warning(const FeatureReport& report) {
   if (!changes_topology(report) && !(std::fmax(report.lost_share, report.added_share) > BoundaryRules::warned_loss))
-    return {};
+    return PlacedText("");
   std::string text = changed_numbers(report);
   if (const std::string why = reasons(report); !why.empty())
     text += (text.empty() ? "" : ": ") + why;
@@ -210,39 +210,40 @@ std::string loss_warning(const FeatureReport& report) {
   text += ". More points (a smaller edge_length) keep more, and --dry-run says how many keep everything. ";
   if (report.components > report.given_components && report.severed == 0)
     text += "A smaller meshing.simplify_within keeps narrow connections. ";
-  return text + "meshing.keep_features = true keeps everything, however many points that takes. The table "
-                "/trime_mpi/rings in the file says what became of each loop";
+  return PlacedText(text + "meshing.keep_features = true keeps everything, however many points that takes. The table "
+                           "/trime_mpi/rings in the file says what became of each loop");
 }
 
-std::vector<std::string> describe(const FeatureReport& report) {
+std::vector<PlacedText> describe(const FeatureReport& report) {
   constexpr std::size_t most_listed = 5;
-  std::vector<std::string> lines;
+  std::vector<PlacedText> lines;
   if (std::string line = simplification_line(report); !line.empty())
-    lines.push_back(std::move(line));
+    lines.emplace_back(std::move(line));
   if (report.dropped_islands + report.dropped_lakes > 0)
-    lines.push_back(fmt::format("{} and {} with a perimeter below {:g} local sizes were dropped, {:.3g} of the area",
-                                counted(report.dropped_islands, "island", "islands"),
-                                counted(report.dropped_lakes, "lake", "lakes"), BoundaryRules::least_perimeter,
-                                report.dropped_share));
+    lines.emplace_back(fmt::format("{} and {} with a perimeter below {:g} local sizes were dropped, {:.3g} of the area",
+                                   counted(report.dropped_islands, "island", "islands"),
+                                   counted(report.dropped_lakes, "lake", "lakes"), BoundaryRules::least_perimeter,
+                                   report.dropped_share));
   if (report.corners_left_out > 0)
-    lines.push_back(fmt::format("{} below the resolution were left out, at most {:.2f} local sizes from the facets",
-                                counted(report.corners_left_out, "corner", "corners"), report.largest_deviation));
+    lines.emplace_back(fmt::format("{} below the resolution were left out, at most {:.2f} local sizes from the facets",
+                                   counted(report.corners_left_out, "corner", "corners"), report.largest_deviation));
   if (report.segments_halved > 0)
-    lines.push_back(fmt::format("{} halved: another part of the boundary is near, or the curve bends",
-                                counted(report.segments_halved, "chord was", "chords were")));
+    lines.emplace_back(fmt::format("{} halved: another part of the boundary is near, or the curve bends",
+                                   counted(report.segments_halved, "chord was", "chords were")));
   if (report.size_limits > 0)
-    lines.push_back(fmt::format("the size was lowered at {}, down to {:.2g} of the requested size, since channels and "
-                                "corners there are narrower",
-                                counted(report.size_limits, "place", "places"), report.lowest_size_share));
+    lines.emplace_back(
+        fmt::format("the size was lowered at {}, down to {:.2g} of the requested size, since channels and "
+                    "corners there are narrower",
+                    counted(report.size_limits, "place", "places"), report.lowest_size_share));
   if (!report.sharp_corners.empty()) {
     std::string list;
     for (std::size_t k = 0; k < std::min(most_listed, report.sharp_corners.size()); ++k)
       list += fmt::format("{}{:.1f} at {}", k == 0 ? "" : ", ", report.sharp_corners[k].degrees,
                           Place(report.sharp_corners[k].place, 6));
-    lines.push_back(fmt::format("{} of less than {:g} degrees, where smaller angles cannot be avoided: {}{}",
-                                counted(std::ssize(report.sharp_corners), "corner", "corners"),
-                                FeatureReport::sharp_angle, list,
-                                report.sharp_corners.size() > most_listed ? ", ..." : ""));
+    lines.emplace_back(fmt::format("{} of less than {:g} degrees, where smaller angles cannot be avoided: {}{}",
+                                   counted(std::ssize(report.sharp_corners), "corner", "corners"),
+                                   FeatureReport::sharp_angle, list,
+                                   report.sharp_corners.size() > most_listed ? ", ..." : ""));
   }
   return lines;
 }

@@ -64,10 +64,10 @@ TooFewPoints too_few_points(const LayoutContext& context, const Fewest& fewest) 
   const geometry::Vec2 place = 0.5 * (fewest.shortest.a + fewest.shortest.b);
   return {fmt::format(
       "points = {} are too few for this shape: its boundary alone needs {}{:.0f}. Each corner takes a point, and so "
-      "does each place where the boundary comes near itself; the shortest boundary edge, {:.3g} long, is at ({:.6g}, "
-      "{:.6g}); use more points, or simplify the shape there",
+      "does each place where the boundary comes near itself; the shortest boundary edge, {:.3g} long, is at {}; use "
+      "more points, or simplify the shape there",
       *context.options.points, fewest.counted ? "" : "more than ", fewest.points,
-      geometry::length(fewest.shortest.b - fewest.shortest.a), place.x, place.y)};
+      geometry::length(fewest.shortest.b - fewest.shortest.a), Place(place, 6))};
 }
 
 void check_edge_length(const FitOptions& options) {

@@ -198,10 +198,10 @@ void Run::report_boundary() {
     boundary::report_losses(boundary_.fixed().cornered_boundary(), boundary_.curves(), stage_.simplified,
                             stage_.polygon.dropped, *stage_.asked_size, run_.lattice, features_);
   });
-  for (const std::string& line : describe(features_))
-    run_.log.info("boundary: {}", line);
-  if (const std::string warning = loss_warning(features_); !warning.empty())
-    run_.log.warning("{}", warning);
+  for (const PlacedText& line : describe(features_))
+    run_.log.info("boundary: {}", line.formatted());
+  if (const PlacedText warning = loss_warning(features_); !warning.text().empty())
+    run_.log.warning("{}", warning.formatted());
   comm::run_agreed(run_.comm, [this] {
     fitting::warn_of_fine_features(stage_, run_.options.min_size.has_value(), run_.log);
     fitting::warn_of_steep_sizes(stage_, run_.given_boundary, run_.lattice, run_.log);

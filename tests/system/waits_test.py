@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests that threads which wait for work sleep soon, unless the user says otherwise."""
+import pathlib
 import re
 import subprocess
 import unittest
@@ -22,6 +23,17 @@ class Waits(unittest.TestCase):
         default, short = spin_counts()
         self.assertEqual(short, 2000)
         self.assertGreater(default, 2000)
+
+    def test_the_process_keeps_its_name(self):
+        with Workspace() as work:
+            given = {name: value for name, value in environment(1).items() if name != "OMP_WAIT_POLICY"}
+            with subprocess.Popen(command([ROOT / "configs" / "square.ini", "meshing.points=200000",
+                                           f"output.directory={work}"], 1), env=given, stdout=subprocess.PIPE,
+                                  stderr=subprocess.STDOUT) as process:
+                process.stdout.read(1)  # it has started again before it writes
+                name = pathlib.Path(f"/proc/{process.pid}/comm").read_text(encoding="utf-8")
+                process.communicate(timeout=120)
+        self.assertEqual(name, "trime_mpi\n")
 
     def test_what_the_user_sets_holds(self):
         self.assertEqual(spin_counts(GOMP_SPINCOUNT="123"), [123])

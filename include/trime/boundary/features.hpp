@@ -3,6 +3,7 @@
 // did to them and to each loop of the given boundary (result). Plain data.
 #pragma once
 
+#include "trime/core/error.hpp"
 #include "trime/core/types.hpp"
 #include "trime/geometry/vec2.hpp"
 
@@ -116,7 +117,7 @@ struct FeatureReport {
 };
 
 /// Returns one line of text for each kind of change; no lines for a boundary that was kept as it is.
-std::vector<std::string> describe(const FeatureReport& report);
+std::vector<PlacedText> describe(const FeatureReport& report);
 
 /// Returns whether components or holes of the mesh differ from those of the given shape, or a loop was lost or split.
 bool changes_topology(const FeatureReport& report);
@@ -124,6 +125,6 @@ bool changes_topology(const FeatureReport& report);
 /// Returns a warning that says what of the shape is missing in the mesh, and what the user can do. Numbers of
 /// components and holes that have changed come first, with the reason and a place. It is empty if no loop is lost or
 /// split, the numbers of components and holes are those of the shape, and at most 0.1 % of the area is lost or added.
-std::string loss_warning(const FeatureReport& report);
+PlacedText loss_warning(const FeatureReport& report);
 
 } // namespace trime::boundary

@@ -129,11 +129,11 @@ TEST(LossWarning, CountsLoopsAndArea) {
     return report;
   };
   const FeatureReport nothing = report_of({}, 0), two = report_of({}, 3);
-  EXPECT_EQ(loss_warning(nothing), "");
+  EXPECT_EQ(loss_warning(nothing).text(), "");
   EXPECT_EQ(nothing.lost_share + nothing.added_share, 0);
   EXPECT_NEAR(two.lost_share, 0.0004 / given.area, 1e-12);
   EXPECT_NEAR(two.added_share, 0.0001 / given.area, 1e-12);
-  const std::string warning = loss_warning(two);
+  const std::string warning = loss_warning(two).text();
   for (const char* words :
        {"2 components became 1 and 1 hole became 0: 1 loop was dropped, 1 hole was filled, the longest 1.6 h around at "
         "(0.8, 0.8). The shape is simplified at this size: 0.16 % of its area is lost, 0.04 % is added",
@@ -146,7 +146,7 @@ TEST(LossWarning, CountsPiecesEvenIfNoLoopIsLost) {
   const Boundary meshed = boundary_of({box(0.1, 0.1, 0.34999, 0.6, 1), box(0.35001, 0.1, 0.6, 0.6, 2)});
   FeatureReport report;
   report_losses(given, meshed, {}, {}, UniformSize(h), unit_lattice(), report);
-  const std::string warning = loss_warning(report);
+  const std::string warning = loss_warning(report).text();
   EXPECT_TRUE(warning.starts_with("1 component became 2: 1 loop was split. The shape is simplified")) << warning;
   EXPECT_NE(warning.find("0.004 % of its area is lost"), std::string::npos) << warning;
   EXPECT_NE(warning.find("simplify_within"), std::string::npos) << warning;
@@ -161,7 +161,7 @@ TEST(LossWarning, BeginsWithTheNecksThatWereCut) {
   simplified.severed_place = {0.35, 0.25};
   FeatureReport report;
   report_losses(given, meshed, simplified, {}, UniformSize(h), unit_lattice(), report);
-  const std::string warning = loss_warning(report);
+  const std::string warning = loss_warning(report).text();
   EXPECT_TRUE(warning.starts_with("1 component became 2: 1 neck was cut, the widest 0.31 h at (0.35, 0.25); "
                                   "meshing.connect = keep holds it"))
       << warning;
