@@ -62,11 +62,17 @@ class Losses(unittest.TestCase):
                 columns["shares"] = [file["trime_mpi"].attrs[name] for name in ("lost_share", "added_share")]
                 return columns, done.stdout + done.stderr, set(numpy.unique(file["Mesh/facets/values"][:]))
 
+    def test_islands_that_nearly_touch_stay_apart(self):
+        columns, says, _ = self.table(text_of(shape("near_touch", 77, 1500)), ranks=2)
+        self.assertEqual(counts_of(says)[1], None, says)
+        self.assertLessEqual(set(columns["state"]), {"kept", "simplified"})
+
     def test_every_lost_loop_is_in_warning_and_file(self):
         for kind in ("islands", "carpet", "near_touch"):
             with self.subTest(kind=kind):
                 text = text_of(shape(kind, 77, 1500))
-                columns, says, tags = self.table(text, ranks=2)
+                # With connect = keep, all islands that nearly touch stay.
+                columns, says, tags = self.table(text, *["meshing.connect=cut"] * (kind == "near_touch"), ranks=2)
                 told, loops = counts_of(says)
                 states = columns["state"]
                 self.assertGreater(sum(told.values()), 0, says)
