@@ -63,7 +63,8 @@ TEST(GeoJson, ErrorsNameTheFeatureAndItsName) {
   EXPECT_EQ(error_of(file_with(R"({"name": "Sylt"})", two)).find("a.geojson:5 (feature 2, 'Sylt'): the ring"), 0u);
   EXPECT_EQ(error_of(file_with(R"({"name": "Sylt"})", open)).find("a.geojson:5 (feature 2, 'Sylt'): expected"), 0u);
   EXPECT_EQ(error_of(file_with("{}", far)).find("a.geojson:5 (feature 2): expected finite coordinates"), 0u);
-  EXPECT_EQ(error_of(file_with("{}", "[[0, 0], [1, null]]")).find("a.geojson:5 (feature 2): expected only numbers in"), 0u);
+  EXPECT_EQ(error_of(file_with("{}", "[[0, 0], [1, null]]")).find("a.geojson:5 (feature 2): expected only numbers in"),
+            0u);
 }
 
 TEST(GeoJson, ReadsBareGeometriesCollectionsOfThemAndClosedLines) {
