@@ -17,8 +17,8 @@ namespace {
 using namespace std::chrono_literals;
 
 TEST(LoneFailure, EndsTheJobWhereTheOthersDoNotCome) {
-  testing::GTEST_FLAG(death_test_style) = "threadsafe";
-  const std::string path = testing::TempDir() + "lone_failure_test.tmp";
+  ::testing::GTEST_FLAG(death_test_style) = "threadsafe";
+  const std::string path = ::testing::TempDir() + "lone_failure_test.tmp";
   std::ofstream(path) << "half a file";
   EXPECT_EXIT(
       {
@@ -26,7 +26,7 @@ TEST(LoneFailure, EndsTheJobWhereTheOthersDoNotCome) {
         failure.begin("cannot write /Mesh in mesh.h5: No space left on device");
         std::this_thread::sleep_for(60s); // the others wait elsewhere
       },
-      testing::ExitedWithCode(static_cast<int>(ExitCode::file)), "error: cannot write /Mesh.*one rank alone");
+      ::testing::ExitedWithCode(static_cast<int>(ExitCode::file)), "error: cannot write /Mesh.*one rank alone");
   EXPECT_FALSE(std::filesystem::exists(path));
 }
 
