@@ -11,13 +11,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace trime;
   fuzz::DamagedFile& file = fuzz::good_file();
   const std::string& path = file.damage(data, size);
-  const auto formats = formats::all_formats();
-  const std::size_t choice = size == 0 ? 0 : data[0] % (formats.size() + 1);
-  if (choice == formats.size()) {
+  const auto every_format = formats::all_formats();
+  const std::size_t choice = size == 0 ? 0 : data[0] % (every_format.size() + 1);
+  if (choice == every_format.size()) {
     fuzz::survives([&] { app::info(path, file.comm()); });
     return 0;
   }
-  const auto& format = formats[choice];
+  const auto& format = every_format[choice];
   const app::CommandLine line{
       .action = app::Action::convert, .files = {path, file.directory() + "/out" + format.ending}, .overwrite = true};
   fuzz::survives([&] {
