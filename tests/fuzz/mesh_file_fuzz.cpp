@@ -4,7 +4,7 @@
 #include "app/convert.hpp"
 #include "damaged_file.hpp"
 #include "fuzz.hpp"
-#include "trime/facade/mesh.hpp"
+#include "trime/formats/exchange.hpp"
 
 const bool trime::fuzz::damages_checkpoints = false;
 
