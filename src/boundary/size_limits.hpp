@@ -20,7 +20,7 @@ namespace trime::boundary {
 std::vector<sizing::SizeLimit> size_limits(const polygon::BoundarySites& boundary, const sizing::SizeField& size,
                                            const sizing::SizeField& asked, double gradation);
 
-/// As above, but on all ranks together: each examines a share of the chords and the sites near them. Collective.
+/// Does the same on all ranks together: each rank examines a share of the chords and the sites near them. Collective.
 std::vector<sizing::SizeLimit> size_limits(const comm::Communicator& comm, const polygon::BoundarySites& boundary,
                                            const sizing::SizeField& size, const sizing::SizeField& asked,
                                            double gradation);

@@ -26,7 +26,7 @@ struct DiscReply {
   std::int64_t sites;
 };
 
-/// What another rank wants to know: its discs among `near`, and what this rank has found in them.
+/// Returns the answer to another rank: its discs among `near`, and the sites that this rank has found in them.
 comm::Message reply_to(int rank, std::span<const PatchDisc> near, std::span<const Surroundings> found) {
   std::vector<DiscReply> replies;
   std::vector<PatchSite> sites;

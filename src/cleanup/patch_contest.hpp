@@ -63,7 +63,7 @@ public:
   /// The arguments must outlive the object.
   PatchContest(const PatchStart& start, PatchChords& chords, PatchMover& mover, const PatchOptions& options);
 
-  /// Whether a contest is held before all moves or after them.
+  /// Says whether a contest is held before all moves or after them.
   enum class Turn { before_moves, after_moves };
   /// @brief Holds the contest at a triangle of the patch. @return true if an operation was better; then `now` is its
   /// result

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What messages consist of: heads, for messages with a size that only the sender knows (the receiver makes room for
+// The components of messages: heads, for messages with a size that only the sender knows (the receiver makes room for
 // the head alone), and several lists in one message.
 #pragma once
 

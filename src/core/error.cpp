@@ -55,7 +55,9 @@ PlacedText::PlacedText(const std::string& formatted) {
       text_.append(formatted, begin);
       return;
     }
-    if (std::optional<Named> named = read_mark(std::string_view(formatted).substr(begin + 1, end - begin - 1))) {
+    const std::size_t last = formatted.rfind(mark, end); // names of files may have a stray mark before it
+    text_.append(formatted, begin, last - begin);
+    if (std::optional<Named> named = read_mark(std::string_view(formatted).substr(last + 1, end - last - 1))) {
       named->end = text_.size();
       places_.push_back(*named);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the machine gives to this process: the processors that it may use, where its threads start on them, and memory.
+// Finds the processors and the memory that the machine gives to this process, and the places where its threads start.
 // The C library keeps some freed memory for later; this gives it back to the system.
 #pragma once
 

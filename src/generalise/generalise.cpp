@@ -42,7 +42,7 @@ bool matters(const Triangulation& mesh, const NarrowPart& part) {
   return part.depth > GeneraliseRules::least_depth * part.size && part.depth > lid;
 }
 
-/// What passes remember: the tips of the corners of the shape as it was given, which stay, however sharp.
+/// Remembers from pass to pass the tips of the corners of the given shape, which stay, however sharp they are.
 class Corners {
 public:
   /// Is it a dead end at one? In the first pass those that have straight arms are.

@@ -24,7 +24,7 @@ public:
       a = parent_[at(a)] = parent_[at(parent_[at(a)])];
     return a;
   }
-  /// True if they were two.
+  /// Returns true if they were two sets.
   bool unite(LocalIndex a, LocalIndex b) {
     a = root(a);
     b = root(b);
@@ -110,7 +110,7 @@ private:
         region_at_[at(mesh_.origin(e))] = piece;
   }
 
-  /// A triangle becomes a part of the piece.
+  /// Adds a triangle to the piece.
   void add(LocalIndex t, LocalIndex index) {
     piece_of_[at(t)] = index;
     Piece& piece = pieces_[at(index)];
@@ -147,7 +147,7 @@ private:
     }
   }
 
-  /// Which bodies and regions stay whatever happens; and which components stay as they are.
+  /// Chooses the bodies and regions that always stay, and the components that stay as they are.
   void choose_bodies(bool keeps_thin) {
     Sets sets(pieces_.size());
     for (std::size_t k = 0; k < parts_.size(); ++k)
@@ -235,13 +235,13 @@ private:
     for (bool changed = true; changed;) {
       changed = false;
       for (const LocalIndex k : order)
-        if (!pieces_[at(k)].goes && may_go(k, is_part(k) ? parts_[at(k)].triangles : triangles[at(k)], sets))
+        if (!pieces_[at(k)].goes && try_to_take(k, is_part(k) ? parts_[at(k)].triangles : triangles[at(k)], sets))
           changed = pieces_[at(k)].goes = true;
     }
   }
 
-  /// Would the piece join no two regions that stay? Then it does.
-  bool may_go(LocalIndex k, std::span<const LocalIndex> triangles, Sets& sets) {
+  /// Takes the piece away if that joins no two regions that stay. Returns whether it did.
+  bool try_to_take(LocalIndex k, std::span<const LocalIndex> triangles, Sets& sets) {
     const Piece& piece = pieces_[at(k)];
     if (!is_part(k) && std::none_of(piece.neighbours.begin(), piece.neighbours.end(),
                                     [&](LocalIndex part) { return pieces_[at(part)].goes; }))
@@ -302,29 +302,6 @@ private:
   std::vector<char> holds_staying_;   // by set: whether it holds a region that stays
 };
 
-/// By triangle: the lowest triangle that is connected to it on its side.
-std::vector<LocalIndex> connected_sets(const Triangulation& mesh, const std::vector<char>& labels) {
-  std::vector<LocalIndex> set(labels.size(), Triangulation::none), open;
-  for (LocalIndex first = 0; first < mesh.triangle_count(); ++first) {
-    if (set[at(first)] != Triangulation::none)
-      continue;
-    set[at(first)] = first;
-    open.push_back(first);
-    while (!open.empty()) {
-      const LocalIndex t = open.back();
-      open.pop_back();
-      for (HalfEdge e = 3 * t; e < 3 * t + 3; ++e)
-        if (const HalfEdge f = mesh.twin(e); f != Triangulation::none)
-          if (const LocalIndex there = Triangulation::triangle(f);
-              set[at(there)] == Triangulation::none && labels[at(there)] == labels[at(t)]) {
-            set[at(there)] = first;
-            open.push_back(there);
-          }
-    }
-  }
-  return set;
-}
-
 } // namespace
 
 Verdict judge_parts(const CurveMap& map, const std::vector<char>& labels, std::span<const NarrowPart> parts,
@@ -333,19 +310,19 @@ Verdict judge_parts(const CurveMap& map, const std::vector<char>& labels, std::s
 }
 
 bool confirms(const CurveMap& map, const std::vector<char>& labels, const Witnesses& witnesses) {
-  const std::vector<LocalIndex> set = connected_sets(map.mesh(), labels);
-  std::map<LocalIndex, LocalIndex> set_of_component;
+  const Regions now(map, labels);
+  std::map<LocalIndex, LocalIndex> region_of_component;
   for (std::size_t k = 0; k < witnesses.bodies.size(); ++k) {
     const LocalIndex t = witnesses.bodies[k];
     if ((labels[at(t)] != 0) != witnesses.inside ||
-        set_of_component.try_emplace(witnesses.components[k], set[at(t)]).first->second != set[at(t)])
+        region_of_component.try_emplace(witnesses.components[k], now.of(t)).first->second != now.of(t))
       return false;
   }
   std::vector<LocalIndex> regions;
   for (const LocalIndex t : witnesses.regions) {
     if ((labels[at(t)] != 0) == witnesses.inside)
       return false;
-    regions.push_back(set[at(t)]);
+    regions.push_back(now.of(t));
   }
   std::sort(regions.begin(), regions.end());
   return std::adjacent_find(regions.begin(), regions.end()) == regions.end();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which narrow parts join, or separate, what is larger than the resolution.
+// Finds the narrow parts that join or separate bodies above the resolution.
 #pragma once
 
 #include "generalise/narrow_parts.hpp"

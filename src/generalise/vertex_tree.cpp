@@ -30,8 +30,8 @@ struct ClosedTriangle {
     return box.contains(p) && geometry::orient2d(at[0], at[1], p) >= 0 && geometry::orient2d(at[1], at[2], p) >= 0 &&
            geometry::orient2d(at[2], at[0], p) >= 0;
   }
-  /// False only if no point of the box lies in the triangle: the differences of lattice points are exact, and rounding
-  /// is monotone.
+  /// Returns false only if no point of the box lies in the triangle: the differences of lattice points are exact, and
+  /// rounding is monotone.
   bool may_meet(const Box& other) const {
     if (other.min.x > box.max.x || other.max.x < box.min.x || other.min.y > box.max.y || other.max.y < box.min.y)
       return false;
@@ -84,30 +84,27 @@ void VertexTree::add_loop(const geometry::Loop& loop, const geometry::Lattice& l
     runs_.push_back({begin, std::min(end, begin + run_length)});
 }
 
-/// By where they begin: loops near each other may be far apart in the list.
+/// Sorts the runs by where they begin, since loops near each other may be far apart in the list.
 void VertexTree::sort_runs() {
   Box box;
   for (const Vec2 p : points_)
     box.include(p);
+  if (box.width() == 0 && box.height() == 0)
+    return; // one place
   constexpr int level = 20;
   const double scale = std::ldexp(0.999, level) / std::fmax(box.width(), box.height());
-  std::vector<std::pair<std::uint64_t, LocalIndex>> order;
+  std::vector<std::pair<std::uint64_t, Run>> order;
   order.reserve(runs_.size());
   for (const Run& run : runs_) {
     const Vec2 p = points_[at(run.begin)] - box.min;
     order.emplace_back(
-        hilbert_key(static_cast<std::uint32_t>(p.x * scale), static_cast<std::uint32_t>(p.y * scale), level),
-        run.begin);
+        hilbert_key(static_cast<std::uint32_t>(p.x * scale), static_cast<std::uint32_t>(p.y * scale), level), run);
   }
-  std::vector<std::size_t> sorted(order.size());
-  for (std::size_t k = 0; k < sorted.size(); ++k)
-    sorted[k] = k;
-  std::sort(sorted.begin(), sorted.end(), [&](std::size_t a, std::size_t b) { return order[a] < order[b]; });
-  std::vector<Run> runs;
-  runs.reserve(runs_.size());
-  for (const std::size_t k : sorted)
-    runs.push_back(runs_[k]);
-  runs_ = std::move(runs);
+  std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) {
+    return std::pair(a.first, a.second.begin) < std::pair(b.first, b.second.begin);
+  });
+  for (std::size_t k = 0; k < order.size(); ++k)
+    runs_[k] = order[k].second;
 }
 
 void VertexTree::build_levels() {

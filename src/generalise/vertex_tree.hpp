@@ -17,7 +17,8 @@ namespace trime::generalise {
 ///
 /// If a vertex of simple closed polygons is removed, and the closed triangle with its neighbours holds no other vertex,
 /// then the polygons stay simple, and each point outside of the triangle stays on its side. For an edge that crosses
-/// the new one would have to end in the triangle, or to cross an old edge.
+/// the new one would have to end in the triangle, or to cross an old edge. Unlike geometry::BoxTree, a search skips
+/// boxes next to a slanted triangle, and ends at the first vertex.
 class VertexTree {
 public:
   /// Nodes are the ends of all pieces and places on arcs, as CurveMap has them. O(n log n)

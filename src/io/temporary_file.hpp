@@ -28,7 +28,7 @@ public:
   /// @throws FileError also if that is not a regular file, after following links: pipes and devices are not replaced
   /// @post synchronise_directory must follow
   void rename_to(const std::string& final_path, bool replaces = true);
-  /// As rename_to, but also writes the directory to the disk. @throws FileError
+  /// Renames the file as rename_to does, and writes the directory to the disk. @throws FileError
   void publish(const std::string& final_path);
   /// @brief Only renames the file, and replaces a file with that name. @throws FileError @post synchronise_file_system
   /// must follow

@@ -20,14 +20,14 @@ enum class NarrowOutside {
   close, ///< makes them a part of the shape
 };
 
-/// What becomes of narrow parts of the shape, or of the outside, that join or separate what is larger than the
-/// triangles.
+/// Says what the mesher does with narrow parts of the shape, or of the outside, that join or separate bodies larger
+/// than the triangles.
 enum class Connections {
   keep, ///< the size is lowered there, and parts that are narrower than 0.35 of it are widened
   cut,  ///< they are cut like dead ends, and a warning says so
 };
 
-/// Which components of the simplified shape are meshed.
+/// Says which components of the simplified shape are meshed.
 enum class Components {
   all,
   largest, ///< the one with the largest area

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The kinds of error and the exit code of each, and the places that errors and messages name. The library throws
-// errors; only the program's main catches. No rank may throw alone before a collective: see comm/agree.hpp.
+// errors, which end in the program's main. No rank may throw alone before a collective: see comm/agree.hpp.
 #pragma once
 
 #include <fmt/core.h>

@@ -44,5 +44,16 @@ TEST(Error, KeepsATextWithoutPlacesAsItIs) {
     EXPECT_STREQ(ConfigError(text).what(), text);
 }
 
+TEST(PlacedText, KeepsAPlaceBehindAStrayMark) {
+  const PlacedText text(fmt::format("file a\x02"
+                                    "b near {}",
+                                    Place(Point{1, 2})));
+  EXPECT_EQ(text.text(), "file a\x02"
+                         "b near (1, 2)");
+  ASSERT_EQ(text.places().size(), 1u);
+  EXPECT_EQ(text.places()[0].x, 1);
+  EXPECT_EQ(text.places()[0].y, 2);
+}
+
 } // namespace
 } // namespace trime
