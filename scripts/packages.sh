@@ -33,8 +33,7 @@ trime_test_packages=(
   doxygen                                         # reference pages of the public headers: scripts/doxygen.sh
   clang clang-format libomp-dev libclang-rt-14-dev # second compiler with its OpenMP and sanitizers, house style
   clang-tidy                                      # tidy.sh
-  ccache                                          # the two MPIs share the objects that know nothing of MPI
-  flake8 universal-ctags                          # rules for Python; finds functions that are too long
+  flake8 universal-ctags                          # rules for Python; the names and lengths of our functions
 )
 
 # To run the program on a simulated cluster, beside the first list: scripts/simulate_cluster.sh.

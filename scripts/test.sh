@@ -22,10 +22,6 @@ esac
 trime_need_packages "${trime_run_packages[@]}" "${trime_test_packages[@]}"
 trime_mpi_environment
 export OMPI_MCA_rmaps_base_oversubscribe=1 OMP_WAIT_POLICY=passive
-# Few sources include mpi.h: of the others, preset mpich takes the objects that preset ci has compiled.
-if command -v ccache >/dev/null; then
-  export CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_BASEDIR="$root" CCACHE_NOHASHDIR=1
-fi
 jobs=${TRIME_JOBS:-$(nproc)}
 # Sanitizers of this age need addresses that are not spread too widely.
 fixed_addresses=()
@@ -94,8 +90,8 @@ tests() {
 build() {
   echo "-- building $1"
   local options=()
-  # A fresh clone compiles the unit tests in groups, which is faster; where somebody works on them, each compiles alone.
-  if [ "$1" = ci ] && [ ! -e build/ci ]; then options=(-D TRIME_UNITY_TESTS=ON); fi
+  # A fresh clone compiles sources in groups, which takes less time; where somebody works on them, each compiles alone.
+  if [ "$1" = ci ] && [ ! -e build/ci ]; then options=(-D TRIME_UNITY=ON); fi
   stage "configure_$1" cmake --preset "$1" ${options[@]+"${options[@]}"} && stage "build_$1" \
     ${fixed_addresses[@]+"${fixed_addresses[@]}"} cmake --build --preset "$1" -j "$jobs"
 }
@@ -108,6 +104,7 @@ export -f check_format
 
 stage format bash -euo pipefail -c check_format || true
 stage layers /usr/bin/python3 scripts/check_layers.py || true
+stage includes /usr/bin/python3 scripts/check_includes.py || true
 stage functions /usr/bin/python3 scripts/check_functions.py || true
 stage doxygen scripts/doxygen.sh || true
 stage python flake8 || true

@@ -34,17 +34,17 @@ function(trime_test_options target)
   endif()
 endfunction()
 
-# trime_unite(TARGET [OPTION]): compiles up to twelve sources as one, which parses their headers once, where TRIME_UNITY
-# or OPTION is on. Not in the builds of users and of the library in preset ci: there each source must compile alone.
+# trime_unite(TARGET): compiles up to twelve sources as one, which parses their headers once, where TRIME_UNITY is on.
+# scripts/check_includes.py finds includes that such a build does not miss.
 function(trime_unite target)
-  set(unite "${TRIME_UNITY}")
-  if(ARGN AND NOT unite)
-    set(unite "${${ARGN}}")
-  endif()
-  if(NOT unite)
+  if(NOT TRIME_UNITY)
     return()
   endif()
-  find_package(Python3 REQUIRED COMPONENTS Interpreter)
+  find_package(Python3 COMPONENTS Interpreter)
+  if(NOT Python3_FOUND)
+    message(STATUS "TRIME_UNITY needs Python 3, which was not found: ${target} is compiled source by source")
+    return()
+  endif()
   get_target_property(sources ${target} SOURCES)
   list(FILTER sources INCLUDE REGEX "\\.cpp$")
   list(FILTER sources EXCLUDE REGEX "_avx(2|512)\\.cpp$") # with options of their own

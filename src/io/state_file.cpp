@@ -5,6 +5,7 @@
 #include "io/hdf5_input.hpp"
 #include "io/slab_file.hpp"
 #include "io/temporary_file.hpp"
+#include "trime/io/mesh_file.hpp"
 
 #include <algorithm>
 #include <optional>

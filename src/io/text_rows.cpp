@@ -4,6 +4,7 @@
 #include "comm/agree.hpp"
 #include "core/thread_loop.hpp"
 #include "io/temporary_file.hpp"
+#include "trime/io/mesh_file.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
