@@ -61,8 +61,8 @@ struct Boundary {
   std::vector<std::string> part_names;
   double area = 0; ///< area of the shape, with exact arcs
   Periods periods; ///< periods of the container
-  /// Whether one component reaches around the periodic container in both directions. Then all its loops are holes, or
-  /// it has no loops.
+  /// True for a component that reaches around the periodic container in both directions. Then all its loops are holes,
+  /// or it has no loops.
   bool covers_torus = false;
 
   int components() const; ///< number of components: outer loops, bands around the container (two loops each), and one
