@@ -22,8 +22,8 @@ namespace trime::mesh {
 /// s: 1 for an equilateral triangle, infinity for a flat one.
 double aspect_ratio(geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r);
 /// @brief Returns a threshold for a fast test: if the squared edges of a triangle add up to less than the threshold
-/// times twice its area, its alpha is below `limit`. Few other triangles have an alpha below `limit`; but for limits
-/// above 1.13 the test accepts only triangles with alpha below 1.13.
+/// times twice its area, its alpha is below `limit`. Few other triangles have an alpha below `limit`. For limits above
+/// 1.13, however, the test accepts only triangles with alpha below 1.13.
 /// @pre limit > 1
 ///
 /// Reason: let eta = (a^2 + b^2 + c^2) / (4 sqrt(3) area). Among all triangles with the same eta, an isosceles one has
