@@ -57,7 +57,7 @@ private:
   std::vector<Problem> problems_;
 };
 
-/// Sections and entries in the order of the text. Invariant: no two entries have the same section and key.
+/// The sections and entries of an ini text, in its order. Invariant: no two entries have the same section and key.
 struct IniDocument {
   std::vector<IniSection> sections;
   std::vector<IniEntry> entries;
