@@ -26,28 +26,27 @@ struct BoundaryRules {
   /// coordinate lattice turns an edge by less than 0.001.
   static constexpr double shortest_in_steps = 0x1p11;
   /// [radians] An arc that turns by less than this stays in the diametral circle of its chord, so its points need no
-  /// test. With exact ends, arcs of up to pi would stay. No other value was measured.
+  /// test. With exact ends, arcs of up to pi would stay. Not measured.
   static constexpr double gentle_turn = pi / 4;
   /// [lattice steps] Shortest arc whose points need no test. Fixed points may have moved its ends by on_boundary, which
-  /// is a thousandth of this length. No other value was measured.
+  /// is a thousandth of this length. Not measured.
   static constexpr double gentle_in_steps = 0x1p22;
   /// [sites] On a stretch whose sites are chosen by a path, one place takes as much work as this number of plain sites,
-  /// because chords to about ten other places are examined. The number is used to share the work among ranks. No other
-  /// value was measured.
+  /// because chords to about ten other places are examined. The number is used to share the work among ranks. Not
+  /// measured.
   static constexpr std::int64_t work_of_place = 8;
   /// [extent of the shape] A vertex within this distance of a given curve lies on the curve; rounding to the coordinate
-  /// lattice moves it less. No other value was measured.
+  /// lattice moves it less. Not measured.
   static constexpr double on_curve = 1e-10;
-  /// [h] The deviation of a simplified curve is measured at places that are this far apart. No other value was
-  /// measured.
+  /// [h] The deviation of a simplified curve is measured at places that are this far apart. Not measured.
   static constexpr double deviation_step = 0.25;
-  /// [places] Largest number of these places on a piece. It is small because the pieces that deviate most are short. No
-  /// other value was measured.
+  /// [places] Largest number of these places on a piece. It is small because the pieces that deviate most are short.
+  /// Not measured.
   static constexpr int deviation_places = 16;
-  /// [1] The report mentions for which h the boundary was simplified if this h exceeds h of the mesh by this factor. No
-  /// other value was measured.
+  /// [1] The report mentions for which h the boundary was simplified if this h exceeds h of the mesh by this factor.
+  /// Not measured.
   static constexpr double told_coarseness = 1.1;
-  /// [1] The program warns if a larger share of the shape's area is lost or added. No other value was measured.
+  /// [1] The program warns if a larger share of the shape's area is lost or added. Not measured.
   static constexpr double warned_loss = 0.001;
   /// [h] Distance along the curve between two samples of the size, which is interpolated between them. A size with
   /// gradient 0.1 changes by 5 % over this distance.

@@ -9,7 +9,7 @@ namespace trime::cones {
 /// Numbers for quadtrees over cones. The quadtrees only make look-ups faster: these numbers change no result.
 struct ConeRules {
   /// [cones] Largest number of cones in the list of a leaf. In the smallest cells with more cones, the tree of cones is
-  /// searched instead. No other value was measured.
+  /// searched instead. Not measured.
   static constexpr std::size_t most_in_leaf = 24;
 };
 

@@ -9,10 +9,10 @@ struct ContourRules {
   /// [1] Size of a normalised contour divided by the shorter side of the container. It leaves a margin on all sides.
   static constexpr double normalized_share = 0.8;
   /// [file units] Larger coordinates are refused in contours and containers, so that squares of coordinates stay
-  /// finite. No other value was measured.
+  /// finite. Not measured.
   static constexpr double largest_coordinate = 1e30;
-  /// [file units] A contour that is normalised must be wider or higher than this, so that the scale stays finite. No
-  /// other value was measured.
+  /// [file units] A contour that is normalised must be wider or higher than this, so that the scale stays finite. Not
+  /// measured.
   static constexpr double smallest_normalized = 1e-30;
 };
 

@@ -18,7 +18,7 @@ struct SweepRules {
   /// With 1e-4, a perturbed lattice on a torus did not return to the regular lattice.
   static constexpr double rest = 1e-5;
   /// [share of `rest`] A site at rest is skipped in later sweeps if its move is shorter than this share of `rest`. The
-  /// share is 0.5 because momentum multiplies a move by at most 1.95. No other value was measured.
+  /// share is 0.5 because momentum multiplies a move by at most 1.95. Not measured.
   static constexpr double rest_share = 0.5;
 
   /// [1] Rest length of a bar over h. It is above 1 so that most bars push. With 1.1, 20 sweeps gave mean alpha 1.050
