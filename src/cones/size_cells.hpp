@@ -108,7 +108,7 @@ inline double lowest_cone(const double* pairs, std::size_t count, geometry::Vec2
 /// Returns the point of the cell at which the lower envelope of the pairs of cones is lowest.
 geometry::Vec2 lowest_point(const double* pairs, std::size_t count, const geometry::Box& cell, double slope);
 
-/// Some blocks with the cells below them, with separate indices.
+/// Some blocks of the quadtree with the cells below them. Their indices count from 0.
 struct CellPart {
   std::vector<CellNode> roots; ///< root nodes of the blocks, row by row
   std::vector<CellChildren> children;
