@@ -54,7 +54,7 @@ struct WantedStars {
   double& cap(LocalIndex i) const { return caps[static_cast<std::size_t>(i - first)]; }
 };
 
-/// Computes stars on one thread, and holds its work space.
+/// Computes stars on one thread, and holds the work space for that.
 class TileWrapper {
 public:
   TileWrapper(const mesh::BinnedPoints& points, StarTable& stars, const geometry::Lattice& lattice, SimdLevel level);
