@@ -271,9 +271,9 @@ const Option table[] = {
      .key = "worst_alpha",
      .fallback = "5",
      .range = {1, 1e300},
-     .meaning = "largest alpha (circumradius over twice the inradius) of a triangle in a good mesh: if a triangle has "
-                "a larger one, and no corner below 60 degrees is within 3 edges of it, the file is marked as "
-                "incomplete and the exit code is 5"},
+     .meaning =
+         "largest alpha (circumradius over twice the inradius) of a good mesh: if a triangle has a larger alpha, and "
+         "no corner below 60 degrees is within 3 edges of it, the file is marked as incomplete and the exit code is 5"},
     {.section = "meshing",
      .key = "seed",
      .kind = OptionKind::integer,
