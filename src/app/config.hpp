@@ -10,9 +10,9 @@
 
 namespace trime::app {
 
-/// @brief Reads a config. The same text gives the same options on every rank.
-/// @param path the path as the user gave it. It names the file in messages, and gives the default of output.name. Paths
-/// in the config are relative to its directory
+/// @brief Reads a config. The same config gives the same options on every rank.
+/// @param path the path as the user gave it. Messages name the file by this path, and the default of output.name is
+/// made from it. Paths in the config are relative to its directory
 /// @param overrides the overrides of the command line, each `section.key=value`
 /// @throws ConfigError that lists all mistakes, one line per mistake
 RunOptions parse_config(std::string_view text, const std::string& path, const std::vector<std::string>& overrides);

@@ -10,7 +10,7 @@
 
 namespace trime::app {
 
-/// Reads a finite number. It accepts "1e3", "+2" and ".5", and refuses "1,5", "nan", "inf" and "3x".
+/// Reads a finite number. The function accepts "1e3", "+2" and ".5", and refuses "1,5", "nan", "inf" and "3x".
 std::optional<double> parse_number(std::string_view text);
 /// Reads an integer of at most 2^53 in magnitude; the form "1e6" is allowed.
 std::optional<std::int64_t> parse_integer(std::string_view text);

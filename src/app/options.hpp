@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// All options of a run, as plain structs. They are the content of a config file after it was read and checked.
+// SPDX-License-Identifier: BSD-3-Clause All options of a run, as plain structs. The options are the content of a config
+// file after it was read and checked.
 #pragma once
 
 #include "formats/mesh_series.hpp"

@@ -20,9 +20,9 @@ struct LimitRules {
   static constexpr double many_fetch_rounds = 0.5;
 };
 
-/// @brief Returns one sentence about the limit of a run. It names the cause with the largest share of the time that
-/// more ranks would not reduce, or of the memory of a rank. With one rank it names the phase that takes longest. The
-/// estimate uses counters and the times of phases; it does not measure waiting.
+/// @brief Returns one sentence about the limit of a run. The sentence names the cause with the largest share of the
+/// time that more ranks would not reduce, or of the memory of a rank. With one rank it names the phase that takes
+/// longest. The estimate uses counters and the times of phases; it does not measure waiting.
 std::string run_limit(const Measurements& measured);
 
 } // namespace trime::app

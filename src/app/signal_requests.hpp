@@ -30,8 +30,8 @@ public:
       stop_ = true;
   }
 
-  /// Sets whether a run that must end may first write a checkpoint. This is possible only during the sweeps, and only
-  /// if checkpoints are configured.
+  /// Sets whether a run that must end may first write a checkpoint. A run can write such a checkpoint only during the
+  /// sweeps, and only if checkpoints are configured.
   void set_stops_in_order(bool stops) noexcept { stops_in_order_ = stops; }
   bool stops_in_order() const noexcept { return stops_in_order_; }
   /// Notes that no further checkpoint will be written.

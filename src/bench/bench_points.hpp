@@ -50,8 +50,8 @@ inline mesh::SiteList random_points(std::int64_t n) {
   return sites;
 }
 
-/// Returns the element size for graded_points. It grows with the distance from a point inside the square; the densities
-/// of points differ by a factor of 900.
+/// Returns the element size for graded_points. The size grows with the distance from a point inside the square; the
+/// densities of points differ by a factor of 900.
 inline double graded_size(geometry::Vec2 p) {
   return 0.001 + 0.03 * geometry::length(p - geometry::Vec2{0.4, 0.45});
 }

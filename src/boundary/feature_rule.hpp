@@ -11,9 +11,10 @@
 
 namespace trime::boundary {
 
-/// @brief The rule drops loops whose perimeter is below `least_perimeter` local sizes. It leaves out a corner if the
-/// boundary edges then stay within `tolerance` local sizes of the boundary. It always keeps corners whose two sides are
-/// at least two local sizes long, and corners that the user asked for (Piece::corner). The default keeps everything.
+/// @brief The rule drops loops whose perimeter is below `least_perimeter` local sizes. The rule leaves out a corner if
+/// the boundary edges then stay within `tolerance` local sizes of the boundary. The rule always keeps corners whose two
+/// sides are at least two local sizes long, and corners that the user asked for (Piece::corner). The default keeps
+/// everything.
 struct FeatureRule {
   double tolerance = 0;
   double least_perimeter = 0;

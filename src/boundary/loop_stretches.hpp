@@ -18,7 +18,7 @@ struct LoopCorner {
                                      // reduced modulo the loop's length
 };
 
-/// A stretch between two fixed places. Its sites divide the integral of ds/h into equal shares.
+/// A stretch between two fixed places. The sites on a stretch divide the integral of ds/h into equal shares.
 struct Stretch {
   double from, to;
   long intervals;                 // number of intervals; 0 if not known yet

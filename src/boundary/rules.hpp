@@ -40,8 +40,8 @@ struct BoundaryRules {
   static constexpr double on_curve = 1e-10;
   /// [h] The deviation of a simplified curve is measured at places that are this far apart. Not measured.
   static constexpr double deviation_step = 0.25;
-  /// [places] Largest number of these places on a piece. It is small because the pieces that deviate most are short.
-  /// Not measured.
+  /// [places] Largest number of these places on a piece. The number is small because the pieces that deviate most are
+  /// short. Not measured.
   static constexpr int deviation_places = 16;
   /// [1] The report mentions for which h the boundary was simplified if this h exceeds h of the mesh by this factor.
   /// Not measured.

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Exchanges messages between ranks that communicate repeatedly. This needs no collective call, and no other rank waits.
+// SPDX-License-Identifier: BSD-3-Clause Exchanges messages between ranks that communicate repeatedly. Such an exchange
+// needs no collective call, and no other rank waits.
 #pragma once
 
 #include "trime/comm/communicator.hpp"

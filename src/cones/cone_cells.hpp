@@ -16,8 +16,8 @@ namespace trime::cones {
 /// can be lowest, are searched in the ConeTree itself. Immutable; queries are thread-safe.
 class ConeCells {
 public:
-  /// Largest number of cones for which the quadtree is built. It takes about 1 KiB per cone, and more where cones lie
-  /// close together.
+  /// Largest number of cones for which the quadtree is built. The quadtree takes about 1 KiB per cone, and more where
+  /// cones lie close together.
   static constexpr std::size_t most_cones = std::size_t{1} << 15;
 
   /// With this number of cones or fewer, no quadtree is built.
@@ -53,7 +53,7 @@ private:
   static constexpr int most_levels = 8; ///< largest number of levels of the quadtree below a block
   static constexpr double finest = 1 << most_levels;
   using Quarters = std::array<CellNode, 4>;
-  /// A block of the quadtree with the cells below it. Its indices count from 0.
+  /// A block of the quadtree with the cells below it. Indices in a part count from 0.
   struct Part {
     CellNode root;
     std::vector<Quarters> quarters;

@@ -37,7 +37,7 @@ public:
   template <class ItemOf>
   BoxHierarchy(std::size_t items, const ItemOf& item_of);
 
-  /// Returns the levels of the tree. Their pointers stay valid when the tree is moved.
+  /// Returns the levels of the tree. The pointers in the levels stay valid when the tree is moved.
   const BoxLevels& levels() const { return pointers_; }
   std::size_t memory_bytes() const {
     std::size_t nodes = 0;

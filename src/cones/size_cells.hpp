@@ -57,7 +57,8 @@ using CellNode = std::int32_t;
 /// The 16 cells two levels below a node, row by row. A leaf one level below the node occurs four times in this list.
 using CellChildren = std::array<CellNode, 16>;
 
-/// A cell that is not split. Its field is either bilinear between its corners, or the lower envelope of a few cones.
+/// A cell that is not split. The size in such a cell is either bilinear between its corners, or the lower envelope of a
+/// few cones.
 struct CellLeaf {
   static constexpr int kinds = 16; ///< kinds 0 and 1 are bilinear cells; kind k > 1 has k - 1 pairs of cones
   static constexpr std::size_t most_numbers = (std::size_t{1} << 31) / kinds;
@@ -108,7 +109,7 @@ inline double lowest_cone(const double* pairs, std::size_t count, geometry::Vec2
 /// Returns the point of the cell at which the lower envelope of the pairs of cones is lowest.
 geometry::Vec2 lowest_point(const double* pairs, std::size_t count, const geometry::Box& cell, double slope);
 
-/// Some blocks of the quadtree with the cells below them. Their indices count from 0.
+/// Some blocks of the quadtree with the cells below them. Indices in a part count from 0.
 struct CellPart {
   std::vector<CellNode> roots; ///< root nodes of the blocks, row by row
   std::vector<CellChildren> children;

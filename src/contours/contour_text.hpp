@@ -95,8 +95,8 @@ void check_coordinates(geometry::Vec2 p, const std::string& source, int line, co
 /// each vertex gets the number of its record, from 1. NAME.shx must be in the same directory; NAME.prj names the
 /// reference system.
 /// @param hint text that ends the error message if the file cannot be opened
-/// @param attribute the attribute in NAME.dbf that names the boundary, see parse_geojson; may be empty. Its texts are
-/// UTF-8 or Latin-1
+/// @param attribute the attribute in NAME.dbf that names the boundary, see parse_geojson; may be empty. Texts in the
+/// .dbf file are UTF-8 or Latin-1
 /// @throws FileError if a file is missing or damaged; ConfigError if there is no such attribute; GeometryError
 /// `source:record: ...` for lines that are not closed
 /// @note Serial.

@@ -6,7 +6,8 @@ namespace trime::contours {
 
 /// Limits and sizes for contours.
 struct ContourRules {
-  /// [1] Size of a normalised contour divided by the shorter side of the container. It leaves a margin on all sides.
+  /// [1] Size of a normalised contour divided by the shorter side of the container. This size leaves a margin on all
+  /// sides.
   static constexpr double normalized_share = 0.8;
   /// [file units] Larger coordinates are refused in contours and containers, so that squares of coordinates stay
   /// finite. Not measured.

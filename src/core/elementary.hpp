@@ -1,6 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Elementary functions with the same bits on every machine. They are needed because sizes and shapes given as formulas
-// determine meshes, and the functions of C libraries differ in the last bit between versions and processors.
+// SPDX-License-Identifier: BSD-3-Clause Elementary functions with the same bits on every machine. These functions are
+// needed because sizes and shapes given as formulas determine meshes, and the functions of C libraries differ in the
+// last bit between versions and processors.
 #pragma once
 
 /// The functions use only + - * /, sqrt, comparisons and the bits of a double, so their results do not depend on

@@ -10,7 +10,7 @@
 
 namespace trime {
 
-/// The number hi + lo, where hi is this number rounded to nearest. It has about 106 bits.
+/// The number hi + lo, where hi is this number rounded to nearest. Such a number has about 106 bits.
 struct DoubleDouble {
   double hi = 0, lo = 0;
 };

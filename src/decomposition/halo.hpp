@@ -16,8 +16,8 @@
 
 namespace trime::decomposition {
 
-/// A message about a ghost to its owner. It identifies the ghost, and the site that caused the message, by their
-/// present places.
+/// A message about a ghost to its owner. The message identifies the ghost, and the site that caused the message, by
+/// their present places.
 struct GhostNews {
   geometry::Vec2 ghost, cause;
 };
@@ -67,8 +67,8 @@ private:
     int rank;
     std::vector<mesh::BinRef> bins; // ascending
   };
-  /// The local indices of the sites in all bins of a neighbour. They are valid until sites are sorted or the halo
-  /// grows.
+  /// The local indices of the sites in all bins of a neighbour. The indices are valid until sites are sorted or the
+  /// halo grows.
   struct Route {
     int rank;
     std::vector<mesh::SiteRange> ranges;

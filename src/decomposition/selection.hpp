@@ -11,7 +11,7 @@
 namespace trime::decomposition {
 
 /// @brief Returns the key of a site for a selection. The key increases with `value` (0..1 in steps of 2^-32; other
-/// values are clamped); a hash of the place orders equal values. It is the same on every rank.
+/// values are clamped); a hash of the place orders equal values. The key is the same on every rank.
 std::uint64_t selection_key(double value, geometry::Vec2 place);
 
 /// @brief Returns the largest threshold such that at most k keys over all ranks are below it. So `key < threshold`

@@ -57,8 +57,8 @@ struct Vertex {
 /// Returns the circumcentre c = (|a|^2 b - |b|^2 a) turned by 90 degrees, over 2 a x b. Let S and D be the sums of the
 /// magnitudes of the products in the numerators and in the determinant. Rounding errors are at most 4 eps S in the
 /// numerators and 2 eps D in the determinant. So the error of each coordinate of c is at most (4 eps S / 2 + |c| (2 eps
-/// D)) / det plus a few eps |c|. All bounds are rounded up generously. They do not hold if the determinant is as small
-/// as its error; then `sound` is false.
+/// D)) / det plus a few eps |c|. All bounds are rounded up generously. The bounds do not hold if the determinant is as
+/// small as its error; then `sound` is false.
 inline Vertex circumcenter(double ax, double ay, double bx, double by) {
   const double a2 = ax * ax + ay * ay, b2 = bx * bx + by * by;
   const double axby = ax * by, aybx = ay * bx, determinant = axby - aybx;

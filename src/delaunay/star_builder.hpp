@@ -71,7 +71,7 @@ public:
   ///
   /// If many stars of a tile are wanted, most are found together, with or without a last ring. A star then takes 120 ns
   /// in a relaxed mesh and 270 ns in a random one (AVX-512; 160 and 400 ns with AVX2, 200 and 510 ns without). The
-  /// others are found one by one: in 120 ns from a ring that is still correct, in 500 to 2000 ns from scratch.
+  /// other stars are found one by one: in 120 ns from a ring that is still correct, in 500 to 2000 ns from scratch.
   /// @param sizes target edge length h of the owned sites; empty: the largest cap for all sites
   /// @param wanted the action for each site, by local index; empty: all stars are computed
   /// @param missing receives the bins that uncertain stars need, ascending, each once

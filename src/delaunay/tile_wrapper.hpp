@@ -111,7 +111,7 @@ private:
     std::array<double, WrapGroup::most_candidates + 2> x, y;
   } near_; // sites that may lie in a circumcircle of a star, relative to the star's site
 
-  // Choices that adapt to earlier results. They change only the time, never a star.
+  // Choices that adapt to earlier results. These choices change only the computing time, never a star.
   ReachChoice reach_;
   TiePause ties_;
 };

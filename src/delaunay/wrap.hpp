@@ -43,7 +43,7 @@ struct WrapGroup {
 };
 
 /// @brief Finds the stars of the sites of a group. If all sites of the box are candidates, a star that is both proven
-/// and covered is the ring of Delaunay neighbours of its site among all sites of the mesh. It has no ties, all
+/// and covered is the ring of Delaunay neighbours of its site among all sites of the mesh. Such a star has no ties, all
 /// circumradii are below the cap, and all circumcircles are inside the box given by low and high. The last statement
 /// holds for every ring that was found.
 using WrapFunction = void (*)(WrapGroup& group);

@@ -1,6 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Measures the quality of the finished mesh. Every triangle and every edge is counted once over all ranks. They are
-// processed in blocks, so that the compiler can vectorise the loops.
+// SPDX-License-Identifier: BSD-3-Clause Measures the quality of the finished mesh. Every triangle and every edge is
+// counted once over all ranks. Triangles and edges are processed in blocks, so that the compiler can vectorise the
+// loops.
 #pragma once
 
 #include "polygon/polygon.hpp"
@@ -56,8 +56,8 @@ private:
   mesh::BadTriangle away_;               ///< the worst triangle that is not near a sharp corner
 };
 
-/// Sums over triangles and edges. They can be merged in any order, because the sums are integers, and of equally bad
-/// triangles and equally short edges the lexicographically first is kept.
+/// Sums over triangles and edges. Sums of several threads and ranks can be merged in any order, because the sums are
+/// integers, and of equally bad triangles and equally short edges the lexicographically first is kept.
 struct QualitySums {
   mesh::RatioStatistics alpha, beta;
   double least_sine = std::numeric_limits<double>::infinity(); ///< sine of the smallest angle of any triangle

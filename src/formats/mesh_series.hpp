@@ -52,7 +52,7 @@ public:
   /// @note Collective.
   std::vector<std::string> check(double expected_points);
 
-  /// @brief Does the same as check(), but creates nothing and only looks at permissions.
+  /// @brief Makes the same checks as check(), but creates no directory and no file: it only looks at permissions.
   /// @throws FileError on all ranks @note Collective.
   std::vector<std::string> look(double expected_points) const;
 

@@ -38,7 +38,7 @@ bool is_file_of_run(const std::string& file, const std::string& name);
 /// @param advice advice for the user about a file
 /// @throws FileError with the advice
 void refuse_to_replace(const std::string& path, bool overwrite, const char* other_name, const char* advice);
-/// Does the same on rank 0 for all paths, and throws on all ranks.
+/// Rank 0 checks all paths as above; if it throws, all ranks throw.
 /// @throws FileError on all ranks
 /// @note Collective.
 void refuse_to_replace(const std::vector<std::string>& paths, bool overwrite, const char* advice,

@@ -17,8 +17,8 @@ namespace trime::io {
 /// they receive no message, so only the launcher can end them.
 class LoneFailure {
 public:
-  /// Time for the other ranks to learn about the error. It is longer than one collective call takes on a slow file
-  /// system, and shorter than a user's patience.
+  /// Time for the other ranks to learn about the error. This time is longer than one collective call takes on a slow
+  /// file system, and short enough for users to wait.
   static constexpr std::chrono::seconds usual_patience{20};
 
   /// @param path path of the temporary file, which is removed when the job ends

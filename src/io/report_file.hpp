@@ -11,8 +11,8 @@
 
 namespace trime::io {
 
-/// Version of the report's content. It is raised when a member is removed or changes its meaning, but not when members
-/// are added.
+/// Version of the report's content. The version is raised when a member is removed or changes its meaning, but not when
+/// members are added.
 inline constexpr int report_version = 1;
 
 /// The end of a run: facts that are not part of its metadata.

@@ -21,7 +21,7 @@ class RunFiles;
 /// The type of the elements of an array.
 enum class ValueKind { float64, int64, int32, uint8 };
 
-/// A distributed array. Its path begins with its group. Rows are made on demand, see SlabArray.
+/// A distributed array. The path of an array begins with the name of its group. Rows are made on demand, see SlabArray.
 struct StateArray {
   std::string path; ///< "group/name"
   ValueKind kind;

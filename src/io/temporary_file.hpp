@@ -96,11 +96,11 @@ void synchronise_file_system(const std::string& path);
 /// @param files may be null
 /// @throws FileError if that fails
 void write_text_file(const std::string& final_path, const std::string& text, RunFiles* files);
-/// Does the same for one of several files.
+/// Writes a text as write_text_file does, for one of several files.
 /// @post synchronise_directory must be called afterwards
 void write_one_text_file(const std::string& final_path, const std::string& text, RunFiles* files);
-/// @brief Does the same for one of thousands of files. The file is complete even if the program is killed. But if the
-/// machine fails before synchronise_file_system is called, the file may be cut off.
+/// @brief Writes a text as write_text_file does, for one of thousands of files. The file is complete even if the
+/// program is killed. But if the machine fails before synchronise_file_system is called, the file may be cut off.
 void write_text_file_of_many(const std::string& final_path, const std::string& text, RunFiles* files);
 
 /// Makes or replaces the symbolic link `path`, which points to `target` (relative to the directory of `path`).

@@ -101,8 +101,8 @@ public:
   }
 
   /// @brief Returns for each of the tiles [first_tile, last_tile) the number b for which 2^b x 2^b bins suit its sites.
-  /// It is the smallest b for which a site shares its bin with only a few others on average, with at most four bins per
-  /// site. The next assign_owned reuses intermediate results. Cost: O(n), by all threads.
+  /// The function chooses the smallest b for which a site shares its bin with only a few others on average, with at
+  /// most four bins per site. The next assign_owned reuses intermediate results. Cost: O(n), by all threads.
   /// @post assign_owned with the same sites and tiles must be called next; another number of sites is an InternalError
   std::vector<std::uint8_t> suitable_bin_bits(std::span<const Site> sites, LocalIndex first_tile, LocalIndex last_tile);
 

@@ -27,7 +27,7 @@ public:
   double of(LocalIndex tile) const { return of_tile_[static_cast<std::size_t>(tile)]; }
   void set(LocalIndex tile, double distance) { of_tile_[static_cast<std::size_t>(tile)] = distance; }
   std::span<const double> of_tiles() const { return of_tile_; }
-  /// Returns the bound for all tiles of all ranks. It is the only bound for tiles without known bins.
+  /// Returns the bound for all tiles of all ranks. This is the only bound for tiles without known bins.
   const DriftBound& largest() const { return largest_; }
   void set_largest(const DriftBound& bound) { largest_ = bound; }
 

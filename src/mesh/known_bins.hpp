@@ -37,7 +37,7 @@ public:
   void forget_foreign();
   /// Makes a bin of a foreign tile, or of a periodic image of any tile, known, with its sites.
   void add_foreign(BinRef bin, SiteRange sites);
-  /// Frees the ranges. They must not be used until own() is called again.
+  /// Frees the ranges. The ranges must not be used until own() is called again.
   void release_ranges();
 
   /// The first and the last index of each bin of one owned tile, row by row.

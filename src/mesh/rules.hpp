@@ -21,8 +21,8 @@ struct MeshRules {
   static constexpr double most_per_tile = 1000;
   /// [tiles] If the mesh needs more tiles than this, tiles are made larger, up to most_per_tile points. Not measured.
   static constexpr double many_tiles = 4000;
-  /// [units] Smallest number of units along the shorter side of the container. It is large enough that units are nearly
-  /// square. Not measured.
+  /// [units] Smallest number of units along the shorter side of the container. The number is large enough that units
+  /// are nearly square. Not measured.
   static constexpr double units_across = 32;
   /// [levels] Finest level of units, however slender the container is. Not measured.
   static constexpr int finest_unit_level = 20;
@@ -32,8 +32,8 @@ struct MeshRules {
   static constexpr int finest_tile_level = 26;
   /// [points] If a bin holds more points than this, all bins of its tile are halved again. Not measured.
   static constexpr int fullest_bin = 16;
-  /// [bins] Largest number of bins of a tile for each of its sites. It bounds the memory if sites are clustered. Not
-  /// measured.
+  /// [bins] Largest number of bins of a tile for each of its sites. This limit bounds the memory if sites are
+  /// clustered. Not measured.
   static constexpr int most_bins_per_site = 64;
   /// [1] A tile has 2^k x 2^k bins, and k is at most this number: the numbers and counts of 2^24 bins fit into 32 bits.
   /// No measured case reaches this bound.

@@ -76,7 +76,7 @@ public:
   double operator[](LocalIndex i) const { return uniform_ > 0 ? uniform_ : values_[static_cast<std::size_t>(i)]; }
 
   const std::vector<double>& values() const { return values_; }
-  /// Returns the values by local index for the caller to fill. They are not used if the size is uniform.
+  /// Returns the values by local index for the caller to fill. The values are not used if the size is uniform.
   std::vector<double>& values() { return values_; }
   /// Forgets all sizes after the sites have changed.
   void forget() {

@@ -76,10 +76,10 @@ struct GridOptions {
 };
 
 /// @brief The container lies in the middle of a square, which is the root of a quadtree; tiles are squares of the
-/// quadtree. They cover the container and are numbered 0..tile_count()-1 along the Hilbert curve; the bins of a tile
-/// are numbered row by row. Every point of the container has a 32-bit fixed-point position along each axis. The leading
-/// bits of the positions give the tile, the bin and the Hilbert key, so points in the order of their keys are also in
-/// the order of their tiles.
+/// quadtree. The tiles cover the container and are numbered 0..tile_count()-1 along the Hilbert curve; the bins of a
+/// tile are numbered row by row. Every point of the container has a 32-bit fixed-point position along each axis. The
+/// leading bits of the positions give the tile, the bin and the Hilbert key, so points in the order of their keys are
+/// also in the order of their tiles.
 ///
 /// At first all tiles have the same size, which suits the typical density. Once the density is known, set_tiles
 /// replaces them by tiles of about equal weight. Memory: O(tiles) on every rank.

@@ -11,8 +11,8 @@
 
 namespace trime::mesh {
 
-/// A square of the quadtree with its bins. Its place and size are fixed-point positions in a square with 2^32 positions
-/// along each side.
+/// A square of the quadtree with its bins. The place and the size of a tile are fixed-point numbers in a square with
+/// 2^32 positions along each side.
 struct Tile {
   std::uint32_t x, y; ///< lowest positions of the tile, multiples of its side
   std::uint8_t shift; ///< the side of the tile is 2^shift positions, at most 2^31

@@ -42,7 +42,8 @@ public:
   explicit StoppedAtCheckpoint(const std::string& message) : Error(ExitCode::checkpointed, message) {}
 };
 
-/// @brief Decides when checkpoints are written, and writes them. It must not change the mesh.
+/// @brief Decides when checkpoints are written, and writes them. A class that implements this interface must not change
+/// the mesh.
 class Checkpoints {
 public:
   virtual ~Checkpoints() = default;

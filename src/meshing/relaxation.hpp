@@ -74,8 +74,8 @@ private:
 };
 
 /// @brief Returns the estimated number of seconds until the end of the run, correct to within a factor of two or three.
-/// It assumes that the gains of this stage decrease as a power of the number of sweeps until they are below the
-/// tolerance, and uses typical times for all later steps.
+/// The estimate assumes that the gains of this stage decrease as a power of the number of sweeps until they are below
+/// the tolerance, and uses typical times for all later steps.
 /// @return a negative number before the second record of a stage, because nothing is known yet
 double seconds_left(std::span<const sweep::SweepRecord> history, const StageNumber& stage,
                     const sweep::SweepOptions& options);

@@ -23,8 +23,8 @@ struct MeshingRules {
   /// [points] If a smaller share of the stars than this is uncertain, the Delaunay lemma is not used, because it would
   /// examine all stars. After the clean-up a few per cent are uncertain. Not measured.
   static constexpr double few_stars = 0.1;
-  /// [FeatureOptions::tolerance] Largest distance between the curve and a boundary edge that the clean-up makes. It may
-  /// be larger than elsewhere, because the clean-up changes only the worst triangles. Not measured.
+  /// [FeatureOptions::tolerance] Largest distance between the curve and a boundary edge that the clean-up makes. The
+  /// distance may be larger than elsewhere, because the clean-up changes only the worst triangles. Not measured.
   static constexpr double cleanup_tolerance = 3;
   /// [points asked for] If the mesh has a smaller share of the points that were asked for, the program warns.
   static constexpr double shortage_warning = 0.9;

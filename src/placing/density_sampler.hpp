@@ -25,8 +25,8 @@ namespace trime::placing {
 /// @brief Divides a tile into cells in the order of the Hilbert curve. A cell is divided into quarters while its weight
 /// is more than a quarter of a site, or more than a sixteenth near the boundary. Cells that do not touch the shape are
 /// left out. If only the integral of the density is needed, cells may be `coarsening` times as wide. Cells are squares
-/// of the quadtree of the grid. They do not depend on the tiles, as long as no tile is smaller than a cell. Immutable,
-/// thread-safe.
+/// of the quadtree of the grid. The cells do not depend on the tiles, as long as no tile is smaller than a cell.
+/// Immutable, thread-safe.
 class DensitySampler {
 public:
   static constexpr double weight_unit = 0x1p20; ///< the integer weight that stands for one site
@@ -63,8 +63,8 @@ public:
 
 private:
   static constexpr int part_levels = 1; // number of quadtree levels between a tile and its parts
-  /// Returns the coarsest level of cells. It is fine enough to sample every bin of the typical density, because sizes
-  /// may jump, and no cell of this level lies partly outside of the container.
+  /// Returns the coarsest level of cells. This level is fine enough to sample every bin of the typical density, because
+  /// sizes may jump, and no cell of this level lies partly outside of the container.
   int least_level() const {
     return std::max({grid_.unit_level(), grid_.typical_level() + grid_.typical_bin_bits() + 1,
                      grid_.typical_level() + part_levels});

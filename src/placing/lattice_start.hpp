@@ -66,8 +66,9 @@ struct LatticeRuns {
   std::vector<std::int64_t> counts() const;
 };
 
-/// @brief A hexagonal lattice with a given spacing. Its rows are parallel to the longest straight side of the boundary;
-/// the first row is one row height away from this side. If no side is straight, rows are parallel to an axis.
+/// @brief A hexagonal lattice with a given spacing. The rows of the lattice are parallel to the longest straight side
+/// of the boundary; the first row is one row height away from this side. If no side is straight, rows are parallel to
+/// an axis.
 ///
 /// In a periodic container, rows are parallel to a periodic axis, and the lattice is stretched slightly to fit the
 /// periods; see fit_to_periods.

@@ -25,7 +25,8 @@ struct PlacingRules {
   /// [sites] Near the boundary, a cell of the density is divided while its weight is more than this, because the cell
   /// may lie partly in the strip.
   static constexpr double sites_in_cell_near = 0.0625;
-  /// [levels] Deepest level of cells of the density. It bounds the work for sizes that are far too small. Not measured.
+  /// [levels] Deepest level of cells of the density. The limit bounds the work for sizes that are far too small. Not
+  /// measured.
   static constexpr int deepest_cell = 32;
   /// [sites] If a cell of the deepest level has a larger weight, the size is far too small, and an error is thrown.
   static constexpr double most_in_deepest = 64;

@@ -14,18 +14,18 @@
 namespace trime::placing {
 
 /// @brief Divides the tiles of a stage until all will hold about the same number of sites, estimated by the size at the
-/// centres of their quarters, and distributes the tiles over the ranks. This decides only which rank does which work;
-/// no number of sites depends on it, except a number for which the sampling ends early (DensitySampler). The tiles do
-/// not depend on the ranks. Memory: O(tiles). Collective.
+/// centres of their quarters, and distributes the tiles over the ranks. The distribution decides only which rank does
+/// which work; no number of sites depends on it, except a number for which the sampling ends early (DensitySampler).
+/// The tiles do not depend on the ranks. Memory: O(tiles). Collective.
 /// @pre the stage has no sites
 /// @param size size field for the future sites
 /// @param grid_coarsening see fitting::complete
 void share_by_density(sites::Stage& stage, const sizing::SizeField& size, const geometry::Lattice& lattice,
                       double grid_coarsening);
 
-/// @brief Does the same with the actual numbers of sites in the tiles, including boundary sites. The tiles are then
-/// those of SiteState::distribute, so few sites must be sent to another rank after they are made. Memory: O(tiles).
-/// Collective.
+/// @brief Divides and distributes the tiles by the actual numbers of sites in the tiles, including boundary sites. The
+/// tiles are then those of SiteState::distribute, so few sites must be sent to another rank after they are made.
+/// Memory: O(tiles). Collective.
 /// @param inside number of inner sites in each tile of own_share()
 /// @return false if a tile was divided; then the caller must count the sites in its quarters. Because levels are
 /// bounded, repeated calls end

@@ -1,6 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Finds out whether an inner site has left the polygon of boundary edges (chords) or entered the diametral circle of a
-// chord, and to which place the site must be pushed. It does not move, delete or count sites itself.
+// SPDX-License-Identifier: BSD-3-Clause Finds out whether an inner site has left the polygon of boundary edges (chords)
+// or entered the diametral circle of a chord, and to which place the site must be pushed. The guard does not move,
+// delete or count sites itself.
 #pragma once
 
 #include "polygon/disc_cells.hpp"
@@ -44,10 +44,10 @@ public:
   ///
   /// The site is moved away from one chord: the chord in whose diametral circle p lies deepest (relative to its
   /// radius), or the nearest chord if p is outside. The new place is PolygonRules::push_way chord lengths away from the
-  /// middle of the chord. It lies in the direction of p if this direction points inside, makes at least 30 degrees with
-  /// the chord and leads to a good place; otherwise it lies along the inner normal. Near sharp notches the new place
-  /// may be bad itself. The search for the nearest chord begins with the local size h. The result depends only on p and
-  /// the boundary sites; in a periodic container it is the image next to p.
+  /// middle of the chord. The direction to the new place is that of p if this points inside, makes at least 30 degrees
+  /// with the chord and leads to a good place; otherwise it is the inner normal. Near sharp notches the new place may
+  /// be bad itself. The search for the nearest chord begins with the local size h. The result depends only on p and the
+  /// boundary sites; in a periodic container it is the image next to p.
   std::optional<geometry::Vec2> correct(geometry::Vec2 p, double h, const geometry::Lattice& lattice) const;
   /// Returns whether `correct` returns a place for p.
   bool pushes(geometry::Vec2 p) const;

@@ -32,7 +32,8 @@ public:
   /// Distance, in lattice steps, within which a vertex counts as lying on a curve.
   static constexpr int on_curve_steps = 4;
 
-  /// A piece from vertex to vertex. It is straight, or runs counter-clockwise along a circle by at most a quarter turn.
+  /// A piece from vertex to vertex. A piece is straight, or runs counter-clockwise along a circle by at most a quarter
+  /// turn.
   struct Piece {
     LocalIndex from, to;
     int circle;            ///< index into circles(); -1 for straight pieces

@@ -59,8 +59,9 @@ struct RingTouch {
 ///
 /// The area stays the same. Each sector of the area around the place gets a separate vertex. One of these vertices
 /// stays, and each other vertex moves into its sector by ShapeRules::touch_gap. So the area is never connected through
-/// the place. A hole that touches its outer ring becomes a bay, and a ring that pinches the area becomes two rings.
-/// Where edges overlap or rings cross, nothing is changed, so that find_meetings still finds them.
+/// the point where the rings touched. A hole that touches its outer ring becomes a bay, and a ring that pinches the
+/// area becomes two rings. Where edges overlap or rings cross, nothing is changed, so that find_meetings still finds
+/// them.
 /// @param meetings all pairs of segments that meet
 /// @param grid the grid made from segments_of(rings)
 std::vector<RingTouch> part_touches(std::vector<LatticeRing>& rings, const std::vector<SegmentPair>& meetings,

@@ -1,6 +1,5 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Decides whether a point lies in a shape. It is fast if the shape has very many parts and the point lies in few of
-// them.
+// SPDX-License-Identifier: BSD-3-Clause Decides whether a point lies in a shape. The decision is fast if the shape has
+// very many parts and the point lies in few of them.
 #pragma once
 
 #include "geometry/segment_tree.hpp"
@@ -13,7 +12,8 @@
 
 namespace trime::shape {
 
-/// @brief Gives the same results as Part::inside. It is faster if most points are near the point of the call before.
+/// @brief Gives the same results as Part::inside. This class is faster if most points are near the point of the call
+/// before.
 ///
 /// If a bin has very many segments, only those between a point and the point before are examined, because each crossed
 /// segment leads from inside to outside or back. The work is never more than twice that of Part::inside. Keeps a

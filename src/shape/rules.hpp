@@ -28,8 +28,8 @@ struct ShapeRules {
   static constexpr std::array<double, 7> tried_directions{0, 0.5, -0.5, 0.75, -0.75, 0.9, -0.9};
   /// [1] A vertex in a sharper tip moves no farther than a vertex whose half angle has this sine. Not measured.
   static constexpr double least_sine = 1.0 / 64;
-  /// [segments] Number of segments in a chunk, in which one thread searches meetings. It is fixed, so that the result
-  /// does not depend on the number of threads. Not measured.
+  /// [segments] Number of segments in a chunk, in which one thread searches meetings. The number is fixed, so that the
+  /// result does not depend on the number of threads. Not measured.
   static constexpr LocalIndex meeting_chunk = 2048;
   /// [meetings] The search in a chunk ends after this number of meetings, which bounds the memory. Not measured.
   static constexpr std::size_t most_meetings = 8192;

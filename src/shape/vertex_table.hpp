@@ -12,8 +12,8 @@
 
 namespace trime::shape {
 
-/// A hash table of vertices by square cells of 2^7 lattice steps. It is never iterated, so no result depends on its
-/// order.
+/// A hash table of vertices by square cells of 2^7 lattice steps. No loop runs over the table, so no result depends on
+/// the order of its entries.
 class VertexTable {
 public:
   static constexpr int merge_steps = 8; ///< points that are at most this many steps apart become one vertex

@@ -29,7 +29,7 @@ struct SavedTiles {
   mesh::DriftBound largest;            ///< bound for all tiles
 };
 
-/// The sites of consecutive tiles, ordered by tile. They may have left the tiles into which they were sorted.
+/// The sites of consecutive tiles, ordered by tile. The sites may have left the tiles into which they were sorted.
 struct SavedSites {
   mesh::SiteList sites;
   std::vector<double> sizes; ///< target edge length h of each site; empty if the size is uniform
@@ -53,8 +53,8 @@ public:
   double size(geometry::Vec2 p) const {
     return is_uniform_ ? uniform_size_ : size_.size(points.grid().periods().wrap(p));
   }
-  /// Returns h at site i, owned or ghost. It has the same bits as size(points.position(i)), but stored values are used
-  /// where they are known.
+  /// Returns h at site i, owned or ghost. The value has the same bits as size(points.position(i)); stored values are
+  /// used where they are known.
   double size(LocalIndex i) const { return sizes_ && sizes_->known(i) ? (*sizes_)[i] : size(points.position(i)); }
 
   const mesh::BinnedPoints& points;
@@ -100,8 +100,8 @@ public:
   /// their numbers of sites. Collective.
   /// @throws ConfigError on all ranks if a rank would own more sites than a local index can count
   void distribute(mesh::SiteList sites);
-  /// @brief Distributes the sites of a checkpoint over the ranks, in the tiles and bins that they had. Their stars are
-  /// not known afterwards. Collective.
+  /// @brief Distributes the sites of a checkpoint over the ranks, in the tiles and bins that they had. The stars of the
+  /// sites are not known afterwards. Collective.
   /// @throws FileError on all ranks if `load` throws or the sites do not fit the tiles; ConfigError under the
   /// conditions of distribute
   void restore(const SavedTiles& saved, const SiteLoader& load, const sizing::SizeField& size);

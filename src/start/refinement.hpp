@@ -14,8 +14,8 @@ namespace trime::start {
 /// Returns the owned inner sites without their leads (momentum).
 mesh::SiteList inner_sites(const sites::SiteState& state);
 
-/// @brief Returns the owned inner sites and the midpoints of inner edges, each edge once. These are four times as many
-/// sites at half the spacing, and as regular as the coarse mesh.
+/// @brief Returns the owned inner sites and the midpoints of inner edges, each edge once. Together they are four times
+/// as many sites at half the spacing, and as regular as the coarse mesh.
 /// @pre all stars are certain
 mesh::SiteList split_edges(const sites::StageView& view);
 
@@ -29,8 +29,8 @@ void insert_in_triangles(const sites::StageView& view, const sites::Stage& next,
 /// Collective.
 void clear_strip(const sites::Stage& next, mesh::SiteList& sites);
 
-/// @brief Removes sites until at most `most` are left over all ranks. It removes sites that are nearest to the boundary
-/// relative to h, because the mesh is irregular there in any case. Collective.
+/// @brief Removes sites until at most `most` are left over all ranks. The removed sites are those nearest to the
+/// boundary relative to h; the mesh is irregular there in any case. Collective.
 /// @return the number of removed sites
 std::int64_t trim(const comm::Communicator& comm, const sites::Stage& next, std::int64_t most, mesh::SiteList& sites);
 

@@ -40,8 +40,8 @@ Treated treat_place(const MoveContext& context, const mesh::TileGrid& grid, cons
                     geometry::Vec2 place, geometry::Vec2 lead, int pushes_allowed);
 
 /// @brief Returns whether the site at p is deleted in this round. A hash of the place chooses SweepRules::deleted_share
-/// of the sites that are marked for deletion. The others wait for a later round, because the room that a deleted site
-/// leaves may be enough for its neighbours.
+/// of the sites that are marked for deletion. The other marked sites wait for a later round, because the room that a
+/// deleted site leaves may be enough for its neighbours.
 bool is_chosen(geometry::Vec2 p, int round);
 
 /// @brief Moves all sites out of the diametral circles of the boundary edges, without an update rule. Sites in a circle

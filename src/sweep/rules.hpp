@@ -21,9 +21,9 @@ struct SweepRules {
   /// share is 0.5 because momentum multiplies a move by at most 1.95. Not measured.
   static constexpr double rest_share = 0.5;
 
-  /// [1] Rest length of a bar over h. It is above 1 so that most bars push. With 1.1, 20 sweeps gave mean alpha 1.050
-  /// instead of 1.053, but the largest alpha was 1.98 instead of 1.73; with 1.0 and bars that also pull, the sweeps
-  /// stalled.
+  /// [1] Rest length of a bar over h. The ratio is above 1 so that most bars push. With 1.1, 20 sweeps gave mean alpha
+  /// 1.050 instead of 1.053, but the largest alpha was 1.98 instead of 1.73; with 1.0 and bars that also pull, the
+  /// sweeps stalled.
   static constexpr double bar_pressure = 1.2;
   /// [1] Explicit Euler step of the bars; steps below 1/3 are stable on a hexagonal lattice. With 0.2, 20 sweeps gave
   /// mean alpha 1.064 instead of 1.053.
@@ -41,8 +41,8 @@ struct SweepRules {
   /// a shear. Then alpha - 1 falls to less than half of its value after the Voronoi rule, and the deviation of edge
   /// lengths from h grows by at most a sixth.
   static constexpr double triangle_stiffness = 0.25;
-  /// [1] Share of the Newton step that TriangleRule makes. It is below 1 because neighbours move at the same time: with
-  /// 0.9 or more, oscillations of neighbouring sites against each other grow.
+  /// [1] Share of the Newton step that TriangleRule makes. The share is below 1 because neighbours move at the same
+  /// time: with 0.9 or more, oscillations of neighbouring sites against each other grow.
   static constexpr double triangle_damping = 0.7;
 
   /// [1] How often a site may be pushed out of diametral circles of boundary edges before it is deleted. On a poker
@@ -69,22 +69,22 @@ struct SweepRules {
   /// [1] The scale of an update rule, such as its rest length of bars, is changed only if the change is at least this
   /// share. A change ends the rest of all tiles.
   static constexpr double scale_change = 1e-3;
-  /// [1] Factor by which upper bounds on distances are raised. It is far above the rounding errors of the sums in these
-  /// bounds.
+  /// [1] Factor by which upper bounds on distances are raised. The factor is far above the rounding errors of the sums
+  /// in these bounds.
   static constexpr double drift_rounding = 1 + 1e-9;
 
   /// [1] Share of the squared largest circumradius up to which the fast floating-point test accepts a triangle. The
   /// exact test decides about larger triangles, because rounding could change the answer.
   static constexpr double cap_margin = 0.98;
 
-  /// [1] Upper bound on the term of one site in the power of the moves. It keeps the sum within the range of FixedSum.
-  /// No measured case reaches this bound.
+  /// [1] Upper bound on the term of one site in the power of the moves. The bound keeps the sum of all sites within the
+  /// range of FixedSum. No measured case reaches this bound.
   static constexpr double largest_power = 0x1p10;
-  /// [1] Upper bound on one squared length over h_ref^2 in a sum. It keeps the sum within the range of FixedSum. No
-  /// measured case reaches this bound.
+  /// [1] Upper bound on one squared length over h_ref^2 in a sum. The bound keeps the sum over all edges within the
+  /// range of FixedSum. No measured case reaches this bound.
   static constexpr double largest_term = 0x1p17;
-  /// [1] Upper bound on alpha - 1 of one triangle in a sum. It keeps the sum within the range of FixedSum. No measured
-  /// case reaches this bound.
+  /// [1] Upper bound on alpha - 1 of one triangle in a sum. The bound keeps the sum over all triangles within the range
+  /// of FixedSum. No measured case reaches this bound.
   static constexpr double largest_excess_term = 1000;
 };
 
@@ -109,8 +109,8 @@ struct StopRules {
 
   /// [1] In the last stage, the bar and Voronoi rules have stalled if a window gains less than this share of alpha - 1.
   static constexpr double last_tolerance = 0.04;
-  /// [1] On a coarse mesh, the Voronoi rule has stalled if a window gains less than this share of alpha - 1. It is half
-  /// of an earlier value.
+  /// [1] On a coarse mesh, the Voronoi rule has stalled if a window gains less than this share of alpha - 1. This limit
+  /// is half of an earlier value.
   static constexpr double coarse_cell_tolerance = 0.015;
   /// [1] In the last stage, TriangleRule has stalled if a window gains less than this share of alpha - 1. The limit is
   /// high because the rule reaches nearly all of its gain in a few sweeps.

@@ -1,6 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Decides for which sites the local Delaunay condition (the Delaunay lemma) is enough to certify the triangles around a
-// site. This depends on nearby boundary edges and ghosts, and on the tiles next to the tiles of a rank.
+// SPDX-License-Identifier: BSD-3-Clause Decides for which sites the local Delaunay condition (the Delaunay lemma) is
+// enough to certify the triangles around a site. The answer depends on nearby boundary edges and ghosts, and on the
+// tiles next to the tiles of a rank.
 #pragma once
 
 #include "mesh/binned_points.hpp"

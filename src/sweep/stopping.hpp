@@ -57,8 +57,8 @@ struct SweepDecision {
 };
 
 /// @brief Chooses the update rule of each sweep. The methods `distmesh` and `cvd` use one rule. The method `hybrid`
-/// starts with the bar rule and changes once to the Voronoi rule, when the median of alpha stalls. It changes in the
-/// first stage if later stages divide a relaxed mesh, and in the last stage if later stages insert points (as in
+/// starts with the bar rule and changes once to the Voronoi rule, when the median of alpha stalls. This change happens
+/// in the first stage if later stages divide a relaxed mesh, and in the last stage if later stages insert points (as in
 /// TriMe++). When the Voronoi rule has stalled, TriangleRule ends the stage. In stages that begin with a division,
 /// TriangleRule does all the work, because these stages start from a relaxed mesh.
 class SweepControl {

@@ -102,8 +102,8 @@ public:
     if (!is_measured_.empty())
       std::atomic_ref(is_measured_[t]).store(0, std::memory_order_relaxed);
   }
-  /// Returns the sums over the stars of the inner owned sites. They equal the sums of sweep::measure and take less
-  /// time. Threads work on different tiles.
+  /// Returns the sums over the stars of the inner owned sites. The result equals that of sweep::measure, and takes less
+  /// time to compute. Threads work on different tiles.
   /// @param task the kernel input for these sites; it needs no update rule
   SweepSums measure(const SweepTask& task, const sites::StarView& view, double reference_size);
 

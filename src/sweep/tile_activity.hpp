@@ -95,9 +95,9 @@ private:
 };
 
 /// @brief Decides which sites of an awake tile sleep, that is, are not moved. A site falls asleep when it surely rests
-/// (surely_rests). It wakes when one of its neighbours moves, when its neighbours change, or when all sites of its tile
-/// wake. Until then it stays in place, because its move depends only on its neighbours, their h and the rule, and none
-/// of these has changed.
+/// (surely_rests). A sleeping site wakes when one of its neighbours moves, when its neighbours change, or when all
+/// sites of its tile wake. Until then it stays in place, because its move depends only on its neighbours, their h and
+/// the rule, and none of these has changed.
 ///
 /// The star of a sleeping local site needs no new certificate either, because the Delaunay lemma depends only on the
 /// places of the site and its neighbours. All other stars are watched: they are certified in each sweep of their tile,
@@ -120,8 +120,8 @@ public:
   void wake(LocalIndex i) { flags_[at(i)] |= SiteFlags::awake; }
   /// Notes that the class of site i has been computed again. Threads may call this for different sites concurrently.
   void watch(LocalIndex i) { flags_[at(i)] |= SiteFlags::watched; }
-  /// Notes that the update rule has moved site i outside of the kernel, and whether it rests. Its star was certified by
-  /// the empty-circumcircle test. Threads may call this for different sites concurrently.
+  /// Notes that the update rule has moved site i outside of the kernel, and whether it rests. The site's star was
+  /// certified by the empty-circumcircle test. Threads may call this for different sites concurrently.
   void set_rest(LocalIndex i, bool rests) {
     flags_[at(i)] = static_cast<std::uint8_t>(SiteFlags::watched | (rests ? 0 : SiteFlags::awake));
   }

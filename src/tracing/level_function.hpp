@@ -13,8 +13,8 @@
 
 namespace trime::tracing {
 
-/// The function of a traced shape, which is negative inside; zero counts as outside. It is as thread-safe as the
-/// function of the shape.
+/// The function of a traced shape, which is negative inside; zero counts as outside. The object is as thread-safe as
+/// the function of the shape.
 class LevelFunction {
 public:
   /// Thrown for a value that is not finite. Loops over many points turn it into one error, the same for any number of

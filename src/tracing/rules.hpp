@@ -12,10 +12,10 @@ struct TracingRules {
   static constexpr int grid_levels = 2;
   /// [cells] Smallest number of cells of the coarse grid along a side. Not measured.
   static constexpr int fewest_coarse_cells = 16;
-  /// [cells] Largest number of cells of the coarse grid along a side. It bounds time and memory. Not measured.
+  /// [cells] Largest number of cells of the coarse grid along a side. This limit bounds time and memory. Not measured.
   static constexpr int most_coarse_cells = 4096;
-  /// [1] Largest deviation of the curve from a chord, divided by the length of the chord. It keeps turns below 9
-  /// degrees.
+  /// [1] Largest deviation of the curve from a chord, divided by the length of the chord. This limit keeps turns of the
+  /// polygon below 9 degrees.
   static constexpr double stray_share = 0.02;
 };
 

@@ -12,7 +12,7 @@
 
 namespace trime::contours {
 
-/// One closed ring: the last vertex is joined to the first, which is not repeated. It may have either orientation.
+/// One closed ring: the last vertex is joined to the first, which is not repeated. A ring may have either orientation.
 struct ContourRing {
   std::vector<geometry::Vec2> points;
   std::vector<int> lines; ///< line of each vertex in the file, from 1; for a shapefile, the number of its record

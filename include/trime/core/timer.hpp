@@ -127,8 +127,8 @@ public:
     double start_;
   };
 
-  /// @param counters counters of this rank, which are moved to a section when it ends; null: nothing is counted. They
-  /// must outlive the table
+  /// @param counters counters of this rank, which are moved to a section when it ends; null: nothing is counted. The
+  /// counters must outlive the table
   explicit TimerTable(Counters* counters = nullptr) : counters_(counters), start_(wall_seconds()) {}
   [[nodiscard]] Scope scope(const std::string& name) { return Scope(*this, name); }
   /// Sets the function that is called at the beginning of each section, with its name. There is at most one such

@@ -1,7 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// The lattice of the container, with a power of two as its step, on which every site lies; the periods of the
-// container; and the Frame that holds both. Parts of a shape are made in a Frame. The difference of two sites is an
-// exact double: an integer below 2^45 in lattice steps. So the exact in-circle test needs a bounded number of bits.
+// SPDX-License-Identifier: BSD-3-Clause The lattice of the container, with a power of two as its step, on which every
+// site lies; the periods of the container; and the Frame that holds both. Parts of a shape are made in a Frame. The
+// difference of two sites is an exact double: an integer below 2^45 in lattice steps. Because of this bound, the exact
+// in-circle test needs a bounded number of bits.
 #pragma once
 
 #include "trime/core/sum.hpp"
@@ -67,8 +67,8 @@ struct Periods {
   }
   /// Returns whether a and b are images of the same point.
   bool same_point(Vec2 a, Vec2 b) const { return wrap(a) == wrap(b); }
-  /// Compares the canonical images lexicographically. This order breaks all ties, and is the same for all images of a
-  /// point.
+  /// Compares the canonical images lexicographically. The program breaks all ties by this order, which is the same for
+  /// all periodic images of a point.
   bool less(Vec2 a, Vec2 b) const { return lexicographically_less(wrap(a), wrap(b)); }
 
 private:

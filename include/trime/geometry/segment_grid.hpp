@@ -1,6 +1,5 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// A search structure over the segments of closed polygons. It finds the nearest segment and decides whether a point
-// lies inside, both exactly.
+// SPDX-License-Identifier: BSD-3-Clause A search structure over the segments of closed polygons. The structure finds
+// the nearest segment and decides whether a point lies inside, both exactly.
 #pragma once
 
 #include "trime/core/types.hpp"
@@ -33,7 +32,7 @@ public:
     double squared_distance;
   };
   /// Returns the nearest segment within the distance `reach` of p (on ties the one with the lowest index), or nothing.
-  /// Visits only bins within that distance.
+  /// The search visits only bins within this distance.
   std::optional<Nearest> nearest(Vec2 p, double reach) const;
   /// Returns the nearest segment at any distance. @pre at least one segment
   Nearest nearest(Vec2 p) const;

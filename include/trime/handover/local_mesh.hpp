@@ -78,8 +78,8 @@ struct LocalMesh {
 /// @param mesh the whole mesh, distributed over all ranks of `comm`
 /// @throws InternalError on all ranks if a facet belongs to no triangle
 /// @note Collective. Makes seven sparse exchanges, and gathers one number per rank. Takes O(n log n) time for n points
-/// on this rank. Memory: 20 bytes per point and 24 per triangle; while it is made, 40 more per triangle. Both may
-/// double because vectors grow.
+/// on this rank. Memory: 20 bytes per point and 24 per triangle; while it is made, 40 more per triangle. Because
+/// vectors grow by doubling, it may need twice as much.
 LocalMesh make_local_mesh(const comm::Communicator& comm, const mesh::DistributedMesh& mesh,
                           Overlap overlap = Overlap::triangles);
 
@@ -94,7 +94,7 @@ void update_ghosts(const comm::Communicator& comm, const LocalMesh& mesh, std::s
 /// their ranks. The values of the ghosts stay. The last bits of the sum depend on the number of ranks.
 /// @param values [local points x components], the components of a point next to each other; only values of owned points
 /// change
-/// @note Collective. Messages as in update_ghosts.
+/// @note Collective. Sends the same numbers of messages as update_ghosts.
 void add_to_owners(const comm::Communicator& comm, const LocalMesh& mesh, std::span<double> values, int components = 1);
 
 } // namespace trime::handover

@@ -1,6 +1,5 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// The mesher: makes a certified mesh from a domain or shape and a size field, on all ranks. It can also estimate,
-// without making a mesh, how it would simplify the boundary.
+// SPDX-License-Identifier: BSD-3-Clause The mesher: makes a certified mesh from a domain or shape and a size field, on
+// all ranks. The mesher can also estimate, without making a mesh, how it would simplify the boundary.
 #pragma once
 
 #include "trime/boundary/features.hpp"
@@ -36,7 +35,7 @@ struct Snapshot {
   const mesh::QualitySummary& quality;
   const std::vector<polygon::LoopSummary>& loops; ///< the loops of the boundary, see MeshResult::loops
 };
-/// A function that receives snapshots of the mesh. It is called on all ranks together, and may communicate.
+/// A function that receives snapshots of the mesh. The function is called on all ranks together, and may communicate.
 using SnapshotObserver = std::function<void(const Snapshot&)>;
 
 class Checkpoints;

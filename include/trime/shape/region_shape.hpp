@@ -93,7 +93,7 @@ public:
   const geometry::Domain& domain() const { return domain_; }
   const geometry::Frame& frame() const { return domain_.frame(); }
   const geometry::Boundary& boundary() const { return domain_.boundary(); }
-  /// Sets the points that meshes of this shape keep, see Domain::fixed_points. They do not change the shape.
+  /// Sets the points that meshes of this shape keep, see Domain::fixed_points. Fixed points do not change the shape.
   void set_fixed_points(std::vector<geometry::FixedPoint> points) { domain_.set_fixed_points(std::move(points)); }
   /// Returns the given parts, followed by the container under the name `domain`.
   const std::vector<Part>& parts() const { return parts_; }

@@ -19,8 +19,8 @@ namespace trime::shape {
 /// intersection with `domain` cuts it cleanly. Across a periodic side it continues in its periodic image, so the
 /// function must have the period of the container. Features narrower than `resolution` may be missed. Default of
 /// `resolution`: 1/512 of the longer side; values below 1/8192 of it give a warning, see Part::warnings. The function
-/// is evaluated about (side/resolution)^2 / 4 times, plus a few thousand times per unit of length, by all threads. It
-/// is not kept.
+/// is evaluated about (side/resolution)^2 / 4 times, plus a few thousand times per unit of length, by all threads. The
+/// part does not keep the function.
 /// @throws GeometryError with the place if a value is not finite, if pieces of the curve touch, or if the function has
 /// the same sign everywhere. Also if the function oscillates below the resolution: if there are more than 16384 closed
 /// curves, 4096 vertices between neighbouring grid lines, 2^23 vertices before thinning, or 2^25 cells of half the

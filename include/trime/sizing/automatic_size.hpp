@@ -20,9 +20,9 @@ namespace trime::sizing {
 /// Options of the automatic size field.
 struct AutomaticSizeOptions {
   double gradation = 0.1; ///< K >= 0: how much the size may grow per unit of distance; 0 makes the size uniform
-  /// Length below which features of the boundary are not resolved, > 0: no local feature size is smaller. It is needed
-  /// because the local feature size is 0 at a corner of a polygon, where the medial axis meets the boundary. A good
-  /// value is half the mean edge length of the mesh.
+  /// Length below which features of the boundary are not resolved, > 0: no local feature size is smaller. This lower
+  /// bound is needed because the local feature size is 0 at a corner of a polygon, where the medial axis meets the
+  /// boundary. A good value is half the mean edge length of the mesh.
   double feature_floor = 0;
   geometry::Box container; ///< where the field is defined; a point outside has the size of the nearest point inside
   double period_x = 0,
@@ -31,7 +31,7 @@ struct AutomaticSizeOptions {
 
 /// @brief Returns the feature floor for a mesh with this number of points or this edge length: half the mean edge
 /// length, because a mesh cannot show smaller features.
-/// @return half the edge length if it is given, otherwise 0.5 sqrt(2/sqrt(3) area/points). The latter assumes
+/// @return half the edge length if it is given, otherwise 0.5 sqrt(2/sqrt(3) area/points). The second formula assumes
 /// equilateral triangles, two for each point
 double feature_floor(std::optional<GlobalId> points, std::optional<double> edge_length, double area);
 
