@@ -158,9 +158,9 @@ class Sample(unittest.TestCase):
         self.assertEqual([line.split(" of ")[0] for line in drawn[0].splitlines() if line.startswith("# ")],
                          ["# page: 3", "# message: 2", "# header: 2"])
 
-
     def test_tags_become_words(self):
-        self.assertEqual(sample_sentences.with_spoken_tags("/// @param a, b Two.\n  /// @throws Error\n/// @brief @pre x\n"),
+        header = "/// @param a, b Two.\n  /// @throws Error\n/// @brief @pre x\n"
+        self.assertEqual(sample_sentences.with_spoken_tags(header),
                          "/// @note parameter a, b: Two.\n  /// @note throws Error\n/// @brief @pre x\n")
 
 
