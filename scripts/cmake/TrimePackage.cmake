@@ -1,6 +1,7 @@
 # What a package holds beside program, library and headers, and the Debian package: cpack -G DEB in the build directory.
 install(DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}/configs" "${CMAKE_CURRENT_SOURCE_DIR}/jobs"
         DESTINATION ${CMAKE_INSTALL_DATADIR}/trime_mpi)
+install(DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}/src/examples" DESTINATION ${CMAKE_INSTALL_DATADIR}/trime_mpi)
 install(PROGRAMS "${CMAKE_CURRENT_SOURCE_DIR}/scripts/plot_mesh.py" DESTINATION ${CMAKE_INSTALL_DATADIR}/trime_mpi/scripts)
 # Where Debian's Python looks under /usr; elsewhere: PYTHONPATH. plot_mesh.py finds it by itself.
 install(DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}/scripts/python/trime_mpi" DESTINATION lib/python3/dist-packages

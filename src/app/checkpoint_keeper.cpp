@@ -114,7 +114,7 @@ void CheckpointKeeper::go_to_the_end() {
 }
 
 void CheckpointKeeper::remove_all() {
-  TRIME_ASSERT(phase_ == Phase::done, "checkpoints are removed once the run goes to its end");
+  TRIME_ASSERT(phase_ == Phase::done, "checkpoints may be removed only after go_to_the_end()");
   alarm(0);
   context_.signals.set_last(false);
   if (found_stop_file_)
@@ -162,7 +162,7 @@ CheckpointWish CheckpointKeeper::wish_of_root() {
 }
 
 CheckpointWish CheckpointKeeper::wish() {
-  TRIME_ASSERT(phase_ == Phase::sweeping, "no checkpoint is wished for after the sweeps");
+  TRIME_ASSERT(phase_ == Phase::sweeping, "wish() may be called only during the sweeps");
   SignalRequests& signals = context_.signals;
   signals.set_stops_in_order(is_configured());
   const CheckpointWish of_root = context_.comm.is_root() ? wish_of_root() : CheckpointWish::none;
@@ -231,7 +231,7 @@ void CheckpointKeeper::tell_unwritten(CheckpointWish wish, const std::string& re
 
 void CheckpointKeeper::write(CheckpointWish wish, const meshing::RunState& state, const sites::SiteState& sites,
                              std::span<const std::uint64_t> activity) {
-  TRIME_ASSERT(phase_ != Phase::done, "a checkpoint of a run that goes to its end");
+  TRIME_ASSERT(phase_ != Phase::done, "no checkpoint may be written after go_to_the_end()");
   const double begin = context_.timers.total();
   if (number_ < 0)
     set_number();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// When checkpoints are written, and into which files: by interval, signal, stop file and time limit.
+// Decides when checkpoints are written, and into which files: by interval, signal, stop file and time limit.
 #pragma once
 
 #include "app/options.hpp"
@@ -15,39 +15,44 @@
 
 namespace trime::app {
 
-/// The arguments of the keeper. @pre all outlive it
+/// The objects that CheckpointKeeper uses.
+/// @pre all references outlive the keeper
 struct KeeperContext {
   const comm::Communicator& comm;
-  io::MeshFileOptions output; ///< directory, name, and the object that notes temporary files
+  io::MeshFileOptions
+      output; ///< directory and name of the files, and the object that keeps the names of temporary files
   SignalRequests& signals;
   TimerTable& timers;
   Log& log;
 };
 
-/// @brief Only the clock and files of rank 0 count; the ranks agree on their wish in the reduction of each sweep. If a
-/// checkpoint cannot be written, the program warns and the run continues; it ends only where a signal would have ended
-/// it.
+/// @brief Writes the checkpoints of a run. Only the clock and files of rank 0 count; the ranks agree on a request in
+/// the reduction of each sweep. If a checkpoint cannot be written, the program warns and the run continues, unless a
+/// signal has asked it to end.
 ///
-/// The phase says what may be called; calls that change it check it:
-/// - sweeping: at first. find, then wish after each sweep, and write if the ranks agree on a wish.
-/// - ending: after wish_before_cleanup. write at most once: then a signal or the time limit ends the run at once.
-/// - done: after go_to_the_end. Signals have no effect from here on. Only remove_all.
-/// A stop that could not be carried out, since its checkpoint was not written, is not wished again by rank 0.
+/// The member phase_ says which calls are allowed, and each call checks it:
+/// * sweeping: the first phase. Call find, then wish after each sweep, and write if the ranks agree on a request.
+/// * ending: begins with wish_before_cleanup. Call write at most once; afterwards a signal or the time limit ends the
+///   run at once.
+/// * done: begins with go_to_the_end. Signals have no effect. Only remove_all may be called.
+/// If a checkpoint at which the run should stop cannot be written, rank 0 does not ask again to stop there.
 class CheckpointKeeper final : public meshing::Checkpoints {
 public:
-  /// @param time_limit seconds since the start of the program; 0: none
+  /// @param time_limit seconds since the start of the program; 0: no limit
   CheckpointKeeper(const KeeperContext& context, const CheckpointOptions& options, double time_limit,
                    checkpoint::Origin origin);
 
-  /// @brief The checkpoint to go on from, if any. Of `auto` the newest that is whole; those that are not are warned of.
-  /// @param restart a path, `auto`, or empty
-  /// @throws FileError on all ranks if the file named cannot be used; ConfigError if it is of another config: says
-  /// which key differs. Collective.
+  /// @brief Returns the checkpoint from which the run continues, if there is one. For `auto` this is the newest
+  /// complete checkpoint; incomplete ones give a warning.
+  /// @param restart a path, `auto`, or empty for no checkpoint
+  /// @throws FileError on all ranks if the named file cannot be used; ConfigError if the checkpoint belongs to another
+  /// config, with the key that differs
+  /// @note Collective.
   std::optional<meshing::SavedRun> find(const std::string& restart);
-  /// From here on the run goes on to its end, whatever signals ask for: to be called before files are written, so that
-  /// no rank leaves while others write them. Collective.
+  /// From now on the run goes on to its end, regardless of signals. Must be called before files are written, so that no
+  /// rank leaves while other ranks write. Collective.
   void go_to_the_end();
-  /// The mesh is written, and the checkpoints are of no more use. Collective.
+  /// Removes all checkpoints of the run, which are not needed once the mesh is written. Collective.
   void remove_all();
 
   meshing::CheckpointWish wish() override;
@@ -75,13 +80,13 @@ private:
   const CheckpointOptions options_;
   const double time_limit_;
   const checkpoint::Origin origin_;
-  std::int64_t number_ = -1; // number of the last checkpoint; -1 if not known yet
+  std::int64_t number_ = -1; // number of the last checkpoint; -1 until it is known
   Phase phase_ = Phase::sweeping;
-  bool found_stop_file_ = false; // on rank 0; it counts until a checkpoint stops the run
-  bool stops_no_more_ = false;   // a stop has failed
+  bool found_stop_file_ = false; // whether rank 0 has found the stop file; stays true until a checkpoint stops the run
+  bool stops_no_more_ = false;   // true after a checkpoint at which the run should stop could not be written
   double asked_ = 0, sweep_ = 0, written_ = 0, longest_writing_ = 0,
-         looked_ = -1e9; // seconds of rank 0
-  std::string reason_;   // reason for the last wish of rank 0
+         looked_ = -1e9; // times in seconds on rank 0
+  std::string reason_;   // reason for the last request of rank 0
 };
 
 } // namespace trime::app

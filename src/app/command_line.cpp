@@ -33,7 +33,7 @@ void declare(CLI::App& app, CommandLine& line, Flags& flags) {
                "like --validate, and also report how the work is divided, what will be simplified, and how many points "
                "would keep every feature of the shape");
   app.add_flag("--print-config", flags.print_config, "print the config with all defaults, as a complete file");
-  app.add_flag("--overwrite", flags.overwrite, "replace OUT (only with convert)");
+  app.add_flag("--overwrite", flags.overwrite, "with convert: replace the file OUT if it exists");
   app.add_option("--report", line.report, "write the report of the run to this file, as JSON");
   app.add_option("--record", line.report)->group(""); // its name in earlier versions; not in the help
   app.add_option("--threads", flags.threads, "threads per rank: sets parallel.setup_threads and parallel.mesh_threads");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The command line of trime_mpi.
+// Parses the command line of trime_mpi.
 #pragma once
 
 #include <string>
@@ -7,23 +7,25 @@
 
 namespace trime::app {
 
-/// The task of the program.
+/// What the program is asked to do.
 enum class Action { mesh, validate, dry_run, print_config, help, help_config, version, convert, info };
 
 struct CommandLine {
   Action action = Action::mesh;
-  std::string config;                 ///< path; empty only where none is needed
-  std::vector<std::string> overrides; ///< section.key=value, those that options stand for included
-  std::vector<std::string> files;     ///< files of convert and info
-  bool overwrite = false;             ///< convert: the file may be there
-  std::string report;                 ///< where the numbers of the run go as JSON; empty: nowhere
-  std::string restart;                ///< a checkpoint to go on from, or `auto`; empty: from the start
-  double time_limit = 0;              ///< seconds; 0: none
-  std::string help;                   ///< text of --help
-  std::string as_given;               ///< the whole line, for the records
+  std::string config;                 ///< path of the config; empty if the action needs no config
+  std::vector<std::string> overrides; ///< section.key=value, including those that follow from options such as --points
+  std::vector<std::string> files;     ///< paths given to `convert` and `info`
+  bool overwrite = false;             ///< for `convert`: an existing file may be replaced
+  std::string report;                 ///< path of the JSON file for the numbers of the run; empty: no such file
+  std::string restart;   ///< path of the checkpoint from which the run continues, or `auto`; empty: the run starts from
+                         ///< the beginning
+  double time_limit = 0; ///< seconds; 0: no limit
+  std::string help;      ///< text of --help
+  std::string as_given;  ///< the whole command line as given, for the metadata of the mesh
 };
 
-/// @throws ConfigError for a line that cannot be obeyed
+/// Parses the command line.
+/// @throws ConfigError for unknown options, missing arguments and wrong values
 CommandLine parse_command_line(int argc, const char* const* argv);
 
 } // namespace trime::app

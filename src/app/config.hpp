@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From the text of a config file and the overrides of the command line to the options of a run.
+// Turns the text of a config file and the overrides of the command line into the options of a run.
 #pragma once
 
 #include "app/options.hpp"
@@ -10,14 +10,14 @@
 
 namespace trime::app {
 
-/// @brief Understands a config. Pure: the same text gives the same options on every rank.
-/// @param path as the user gave it: names the file in messages, gives the default of output.name, and paths in the
-/// config are relative to its directory
-/// @param overrides `section.key=value` each
-/// @throws ConfigError with one line per mistake, all mistakes at once
+/// @brief Reads a config. The same config gives the same options on every rank.
+/// @param path the path as the user gave it. Messages name the file by this path, and the default of output.name is
+/// made from it. Paths in the config are relative to its directory
+/// @param overrides the overrides of the command line, each `section.key=value`
+/// @throws ConfigError that lists all mistakes, one line per mistake
 RunOptions parse_config(std::string_view text, const std::string& path, const std::vector<std::string>& overrides);
 
-/// "distmesh", "cvd", "hybrid".
+/// Returns the word for a method in a config: "distmesh", "cvd" or "hybrid".
 std::string method_name(sweep::Method method);
 
 } // namespace trime::app

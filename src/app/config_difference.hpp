@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Compares two configs, as far as the mesh depends on them.
+// Compares the keys of two configs on which the mesh depends.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace trime::app {
 
-/// @brief One line for each key that is not the same in two resolved configs: "points in [meshing]: 1000 then, 2000
-/// now". Numbers are compared as numbers. Without keys that leave the mesh as it is: [parallel], [output],
+/// @brief Returns one line for each key with different values in two complete configs: "points in [meshing]: 1000 then,
+/// 2000 now". Numbers are compared as numbers. Keys that do not change the mesh are left out: [parallel], [output],
 /// [checkpoint], [log], and paths of files.
 std::vector<std::string> differing_keys(const std::string& then, const std::string& now);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The section [sizing] of a config.
+// Reads the section [sizing] of a config.
 #pragma once
 
 #include "app/ini.hpp"
@@ -8,7 +8,7 @@
 
 namespace trime::app {
 
-/// Fills `options.sizing` and the bounds of the size; keys that have no effect earn a warning.
+/// Fills `options.sizing` and the bounds of the size. A key without effect gives a warning.
 void read_sizing(const Settings& settings, RunOptions& options, Diagnostics& problems);
 
 } // namespace trime::app

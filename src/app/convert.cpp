@@ -106,7 +106,7 @@ std::string checks_text(const Metadata& metadata) {
     if (row<std::int32_t>(metadata, "checks", "passed", k) == 0)
       failed += " " + names[k];
   return failed.empty() ? fmt::format("\nall {} checks passed\n", names.size())
-                        : fmt::format("\nof {} checks these FAILED:{}\n", names.size(), failed);
+                        : fmt::format("\nof the {} checks of the mesh, these FAILED:{}\n", names.size(), failed);
 }
 
 std::string quality_text(const Metadata& metadata) {

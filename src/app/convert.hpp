@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Converts a mesh file for other programs, and prints what is in a mesh file.
+// Converts a mesh file to formats of other programs, and prints the contents of a mesh file.
 #pragma once
 
 #include "app/command_line.hpp"
@@ -11,11 +11,15 @@
 
 namespace trime::app {
 
-/// The file of `trime_mpi convert IN OUT` in the format of the ending of OUT. @throws ConfigError, FileError on all
+/// Does the work of `trime_mpi convert IN OUT`: writes the mesh in the format that belongs to the ending of OUT.
+/// @throws ConfigError, FileError on all ranks
+/// @note Collective.
 /// ranks @note Collective.
 void convert(const CommandLine& line, io::RunFiles* files, const comm::Communicator& comm, Log& log);
 
-/// Returns what `trime_mpi info FILE` prints. @throws FileError on all ranks @note Collective.
+/// Returns the text that `trime_mpi info FILE` prints.
+/// @throws FileError on all ranks
+/// @note Collective.
 std::string info(const std::string& path, const comm::Communicator& comm);
 
 } // namespace trime::app

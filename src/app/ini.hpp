@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reader of ini texts that knows where every value came from: sections, `key = value`, comments. A comment goes from
-// `;` or `#`, at the start of a line or after a blank, to its end. It knows no keys: what they mean is the business of
-// the caller. All
-// problems are collected, so that a user sees every mistake of a file at once.
+// Reads ini texts: sections, `key = value`, comments. Each value keeps its line for messages. A comment begins with `;`
+// or `#` at the start of a line or after a blank, and goes to the end of the line. The reader does not know which keys
+// exist. All mistakes are collected, so that a user sees every mistake of a file at once.
 #pragma once
 
 #include <string>
@@ -12,18 +11,18 @@
 
 namespace trime::app {
 
-/// Line number of values given on the command line.
+/// Line number of values that were given on the command line.
 inline constexpr int command_line_origin = 0;
-/// Line number of problems that belong to the whole file (something is missing).
+/// Line number of mistakes that concern the whole file, such as a missing section.
 inline constexpr int whole_file = -1;
 
-/// One `key = value`, blanks at both ends removed.
+/// One `key = value`, without blanks at both ends of key and value.
 struct IniEntry {
   std::string section, key, value;
   int line = whole_file; ///< from 1; command_line_origin for overrides
 };
 
-/// Section and key.
+/// The section and the key of a value.
 using IniKey = std::pair<std::string, std::string>;
 
 struct IniSection {
@@ -31,20 +30,22 @@ struct IniSection {
   int line = whole_file;
 };
 
-/// @brief Mistakes with their places.
+/// @brief Collects mistakes in a config, with their lines.
 class Diagnostics {
 public:
-  /// @param file name of the file for messages
+  /// @param file name of the file, which messages begin with
   explicit Diagnostics(std::string file) : file_(std::move(file)) {}
   void add(int line, std::string message) { problems_.push_back({line, std::move(message)}); }
-  /// Place of a line as it stands before messages: "file:17", "command line", or "file" for the whole of it.
+  /// Returns the text that begins messages about a line: "file:17", "command line", or "file" for the whole file.
   std::string place(int line) const;
   bool empty() const { return problems_.empty(); }
   std::size_t size() const { return problems_.size(); }
-  /// @brief One line per problem: `file:17: ...` in the order of the file, then those of the whole file (`file: ...`),
-  /// then `command line: ...`. After `limit` lines it gives only the number of the others.
+  /// @brief Returns one line per mistake: first `file:17: ...` in the order of the file, then mistakes of the whole
+  /// file (`file: ...`), then `command line: ...`. After `limit` lines it gives only the number of the remaining
+  /// mistakes.
   std::string text(std::size_t limit = 30) const;
-  /// @throws ConfigError with text() if there is any problem
+  /// Throws if there is any mistake.
+  /// @throws ConfigError with text()
   void throw_if_any() const;
 
 private:
@@ -56,22 +57,22 @@ private:
   std::vector<Problem> problems_;
 };
 
-/// Sections and entries in the order of the text. Invariant: no two entries have the same section and key.
+/// The sections and entries of an ini text, in its order. Invariant: no two entries have the same section and key.
 struct IniDocument {
   std::vector<IniSection> sections;
   std::vector<IniEntry> entries;
 
-  /// Returns null if the entry is missing. O(entries).
+  /// Returns the entry, or null if it is missing. Cost: O(entries).
   const IniEntry* find(std::string_view section, std::string_view key) const;
 };
 
 /// @brief Reads a text. Duplicates, repeated sections, keys before the first section, empty values and unreadable lines
-/// go to `problems`; reading continues after them. O(characters + entries log(entries)).
+/// are added to `problems`; reading continues after them. Cost: O(characters + entries log(entries)).
 IniDocument parse_ini(std::string_view text, Diagnostics& problems);
 
-/// @brief Sets one value as given on the command line: `section.key=value`, the section being all before the last dot
-/// of the left side. An empty value takes the entry away, so that the default holds. Replaces what the file or an
-/// earlier override says: scripts append the wishes of their users to their own.
+/// @brief Sets one value as given on the command line: `section.key=value`, where the section is everything before the
+/// last dot on the left side. An empty value removes the entry, so that the default holds. The value replaces that of
+/// the file or of an earlier override, so that a script can append the user's overrides to its own.
 void apply_override(IniDocument& document, std::string_view text, Diagnostics& problems);
 
 } // namespace trime::app

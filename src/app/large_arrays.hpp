@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the program gets memory for its large arrays; see large_arrays.cpp.
+// Sets how the program allocates memory for its large arrays; large_arrays.cpp explains how.
 #pragma once
 
 namespace trime::app {
 
-/// To be called once, before anything large is made.
+/// Must be called once, before any large array is allocated.
 void prepare_large_arrays();
 
 } // namespace trime::app

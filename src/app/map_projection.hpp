@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contours of maps: from longitude and latitude into the plane in which they are meshed.
+// Projects contours of maps from longitude and latitude into the plane in which they are meshed.
 #pragma once
 
 #include "app/options.hpp"
@@ -12,26 +12,29 @@
 
 namespace trime::app {
 
-/// Which place of the Earth a coordinate of the container is; all empty: unknown.
-struct MapSystem {
+/// How coordinates of the container correspond to places on the Earth. All members are empty if that is unknown.
+struct MapSystem {               ///< name of the reference system, as PROJ knows it
   std::string crs{};             ///< reference system, as PROJ names it
-  std::string well_known_text{}; ///< its complete definition
-  std::string crs_of_files{};    ///< reference system of the contour files
+  std::string well_known_text{}; ///< complete definition of the reference system
+  std::string crs_of_files{};    ///< name of the reference system of the contour files
 };
 
-/// @brief Projects the contours as [shape] projection says; without it only asks which system their files name.
+/// @brief Projects the contours if the config has the key `projection` in [shape]. Otherwise only finds out which
+/// reference system their files name.
 ///
-/// Files that name none have longitude and latitude on WGS 84. Straight lines between vertices stay straight in the
-/// plane.
+/// If a file names no reference system, its coordinates are longitude and latitude on WGS 84. Only vertices are
+/// projected: the lines between them are straight in the plane.
 /// @throws ConfigError if PROJ does not know a system; GeometryError `source:line: ...` for a vertex that cannot be
 /// projected
 /// @note Serial.
 MapSystem project_contours(const RunOptions& options, std::span<contours::Contour> contours, Log& log);
 
-/// @brief Projects one contour and keeps the places in its file in ContourRing::in_file. @throws as project_contours
+/// @brief Projects one contour and keeps the original coordinates in ContourRing::in_file.
+/// @throws the errors of project_contours
 void project_contour(contours::Contour& contour, const std::string& plane);
 
-/// Returns longitude and latitude of a place of the mesh, in degrees; nothing if it is in no plane that PROJ knows.
+/// Returns longitude and latitude, in degrees, of a place in the mesh; nothing if PROJ does not know its reference
+/// system.
 std::optional<geometry::Vec2> on_earth(const MapSystem& map, geometry::Vec2 place);
 
 } // namespace trime::app

@@ -32,50 +32,53 @@ const Option table[] = {
      .fallback = "auto",
      .choices = "auto",
      .range = coordinate,
-     .meaning = "left side of the container, a rectangle a little larger than the shape; auto: 0, or a little left of "
-                "a shape that does not fit into the unit square"},
+     .meaning = "left side of the container, a rectangle a little larger than the shape; auto: 0, or a little to the "
+                "left of a shape that does not fit into the unit square"},
     {.section = "domain",
      .key = "x_max",
      .fallback = "auto",
      .choices = "auto",
      .range = coordinate,
-     .meaning = "right side of the container; auto: 1, or a little right of such a shape"},
+     .meaning = "right side of the container; auto: 1, or a little to the right of a shape that does not fit into the "
+                "unit square"},
     {.section = "domain",
      .key = "y_min",
      .fallback = "auto",
      .choices = "auto",
      .range = coordinate,
-     .meaning = "lower side of the container; auto: 0, or a little below such a shape"},
+     .meaning =
+         "lower side of the container; auto: 0, or a little below a shape that does not fit into the unit square"},
     {.section = "domain",
      .key = "y_max",
      .fallback = "auto",
      .choices = "auto",
      .range = coordinate,
-     .meaning = "upper side of the container; auto: 1, or a little above such a shape"},
+     .meaning =
+         "upper side of the container; auto: 1, or a little above a shape that does not fit into the unit square"},
     {.section = "domain",
      .key = "periodic_x",
      .kind = OptionKind::boolean,
      .fallback = "false",
-     .meaning = "true: the left and the right side of the container are the same line"},
+     .meaning = "true: the mesh is periodic in x, so the left and the right side of the container are joined"},
     {.section = "domain",
      .key = "periodic_y",
      .kind = OptionKind::boolean,
      .fallback = "false",
-     .meaning = "true: the lower and the upper side of the container are the same line"},
+     .meaning = "true: the mesh is periodic in y, so the lower and the upper side of the container are joined"},
     {.section = "domain",
      .key = "cells_x",
      .kind = OptionKind::integer,
      .fallback = "auto",
      .choices = "auto",
      .range = {1, 1e6},
-     .meaning = "number of columns of the container grid; auto: about 3.3 points per cell"},
+     .meaning = "number of columns of the grid of cells over the container; auto: about 3.3 points per cell"},
     {.section = "domain",
      .key = "cells_y",
      .kind = OptionKind::integer,
      .fallback = "auto",
      .choices = "auto",
      .range = {1, 1e6},
-     .meaning = "number of rows of the container grid; auto: about 3.3 points per cell"},
+     .meaning = "number of rows of the grid of cells over the container; auto: about 3.3 points per cell"},
 
     {.section = "shape",
      .key = "geometry",
@@ -158,13 +161,13 @@ const Option table[] = {
      .fallback = "none",
      .choices = "none",
      .range = positive,
-     .meaning = "lower bound of the size, a length like `edge_length`"},
+     .meaning = "lower bound of the size, a length in the unit of the coordinates, as is `edge_length`"},
     {.section = "sizing",
      .key = "max_size",
      .fallback = "none",
      .choices = "none",
      .range = positive,
-     .meaning = "upper bound of the size, a length like `edge_length`"},
+     .meaning = "upper bound of the size, a length in the unit of the coordinates, as is `edge_length`"},
 
     {.section = "meshing",
      .key = "method",
@@ -200,29 +203,28 @@ const Option table[] = {
      .key = "fixed_points_normalize_with",
      .kind = OptionKind::text,
      .fallback = "none",
-     .meaning = "name of a normalised contour; the fixed points are moved and scaled as that contour is"},
+     .meaning = "name of a normalised contour; the fixed points are moved and scaled in the same way as this contour"},
     {.section = "meshing",
      .key = "corner_angle",
      .fallback = "30",
      .range = {0, 180, true},
      .meaning = "degrees; a vertex of the shape's boundary is a corner, and thus a vertex of the mesh, if the boundary "
-                "turns there by more than this, or by more than 120"},
+                "turns there by more than this, or by more than 120 degrees in any case"},
     {.section = "meshing",
      .key = "keep_features",
      .kind = OptionKind::boolean,
      .fallback = "false",
      .meaning = "true: the mesh keeps every corner, island, lake and narrow part, however small, and the size is "
-                "lowered around them. False: parts of the shape narrower than 0.5 h (h: the local size) are cut "
-                "unless `connect` keeps them, islands and lakes with a perimeter below 3 h are dropped, and corners "
-                "may be left out (see "
-                "`feature_tolerance`). The report counts all of these"},
+                "lowered around them. False: parts of the shape narrower than 0.5 h (h: the local size) are cut unless "
+                "`connect` keeps them, islands and lakes with a perimeter below 3 h are dropped, and corners may be "
+                "left out (see `feature_tolerance`). The report counts all these changes"},
     {.section = "meshing",
      .key = "simplify_within",
      .fallback = "0.5",
      .range = {0, 1},
-     .meaning = "in units of h: how far the boundary of the mesh may lie from that of the shape where the shape is "
-                "narrower or rougher than the triangles. Smaller values simplify smaller features only, and 0 "
-                "simplifies nothing. Ignored if keep_features = true"},
+     .meaning = "in units of h, the local size of the triangles: how far the boundary of the mesh may lie from that of "
+                "the shape where the shape is narrower or rougher than the triangles. Smaller values simplify smaller "
+                "features only, and 0 simplifies nothing. Ignored if keep_features = true"},
     {.section = "meshing",
      .key = "connect",
      .kind = OptionKind::word,
@@ -236,23 +238,23 @@ const Option table[] = {
      .kind = OptionKind::text,
      .fallback = "all",
      .meaning = "which components of the simplified shape are meshed: `all`; `largest`: the one with the largest area; "
-                "`at X Y`: the one that holds this place, in the coordinates of the contour files. The warning says "
-                "how many are left out"},
+                "`at X Y`: the one that holds this place, in the coordinates of the contour files. A warning says how "
+                "many components are left out"},
     {.section = "meshing",
      .key = "max_loss",
      .fallback = "none",
      .choices = "none",
      .range = {0, 1},
-     .meaning = "largest share of the shape's area that may be lost: if more is, the file is marked as incomplete and "
-                "the exit code is 5; none: any share"},
+     .meaning = "largest share of the shape's area that may be lost: if more is lost, the mesh file is marked as "
+                "incomplete and the exit code is 5; none: any share"},
     {.section = "meshing",
      .key = "narrow",
      .kind = OptionKind::word,
      .fallback = "keep",
      .choices = "keep close",
-     .meaning = "what happens to parts of the outside that are narrower than a third of h (slits, cracks, walls): "
-                "`keep` moves their sides apart; `close` fills them. Next to components with a perimeter below 5 h "
-                "they are always filled. Ignored if keep_features = true"},
+     .meaning = "what happens to parts of the outside that are narrower than a third of the local size h (slits, "
+                "cracks, walls): `keep` moves their sides apart; `close` fills them. Next to components with a "
+                "perimeter below 5 h, narrow parts of the outside are always filled. Ignored if keep_features = true"},
     {.section = "meshing",
      .key = "refine_narrow",
      .kind = OptionKind::boolean,
@@ -263,15 +265,15 @@ const Option table[] = {
      .key = "feature_tolerance",
      .fallback = "0.1",
      .range = {0, 0.3},
-     .meaning = "in units of h: a corner less than 2 h from the next one may be left out if the boundary of the mesh "
-                "passes it at no more than this distance"},
+     .meaning = "in units of h, the local size of the triangles: a corner less than 2 h from the next corner may be "
+                "left out if the boundary of the mesh passes it at no more than this distance"},
     {.section = "meshing",
      .key = "worst_alpha",
      .fallback = "5",
      .range = {1, 1e300},
      .meaning =
-         "largest alpha (circumradius over twice the inradius) of a good mesh: if a triangle has more, and no corner "
-         "below 60 degrees is within 3 edges of it, the file is marked as incomplete and the exit code is 5"},
+         "largest alpha (circumradius over twice the inradius) of a good mesh: if a triangle has a larger alpha, and "
+         "no corner below 60 degrees is within 3 edges of it, the file is marked as incomplete and the exit code is 5"},
     {.section = "meshing",
      .key = "seed",
      .kind = OptionKind::integer,
@@ -290,9 +292,9 @@ const Option table[] = {
      .fallback = "auto",
      .choices = "auto",
      .range = positive,
-     .meaning =
-         "a method stops once six sweeps lower both the mean and the median of alpha - 1 by less than this share; "
-         "auto: 0.04 for most final meshes, and other shares for coarse meshes and for the last method of `hybrid`"},
+     .meaning = "a method stops when six sweeps have lowered both the mean and the median of alpha - 1 by less than "
+                "this share; auto: 0.04 for most final meshes, and other shares for coarse meshes and for the last "
+                "method of `hybrid`"},
 
     {.section = "meshing",
      .key = "cleanup",
@@ -306,14 +308,15 @@ const Option table[] = {
      .kind = OptionKind::integer,
      .fallback = "0",
      .range = {0, 4096},
-     .meaning = "threads per rank while shape and size field are made; 0: as many as for `mesh_threads`"},
+     .meaning =
+         "threads per rank while the program makes the shape and the size field; 0: as many as `mesh_threads` says"},
     {.section = "parallel",
      .key = "mesh_threads",
      .kind = OptionKind::integer,
      .fallback = "0",
      .range = {0, 4096},
-     .meaning =
-         "threads per rank after that; 0: OMP_NUM_THREADS if it is set, otherwise all cores that the rank may use"},
+     .meaning = "threads per rank after shape and size field are made; 0: OMP_NUM_THREADS if it is set, otherwise all "
+                "cores that the rank may use"},
 
     {.section = "output",
      .key = "directory",
@@ -336,8 +339,8 @@ const Option table[] = {
      .fallback = "vtkhdf xdmf",
      .choices = format_words(),
      .meaning = "`vtkhdf`: for ParaView and VTK; `xdmf`: for ParaView, FEniCS and PETSc; one file NAME.h5 serves both. "
-                "`text`: the files of TriMe++, in the directory NAME. The others are for other programs; they hold the "
-                "final mesh and the names of its boundary"},
+                "`text`: the files of TriMe++, in the directory NAME. The other formats are for other programs; their "
+                "files hold the final mesh and the names of its boundary"},
     {.section = "output",
      .key = "interval",
      .kind = OptionKind::integer,
@@ -363,8 +366,9 @@ const Option table[] = {
      .kind = OptionKind::text,
      .fallback = "none",
      .choices = "none",
-     .meaning = "name of a file, relative to the working directory. A run that finds this file removes it, writes a "
-                "checkpoint and stops with exit code 75. Meant for machines on which signals do not reach a job"},
+     .meaning =
+         "name of a file, relative to the working directory. A run that finds this file removes it, writes a "
+         "checkpoint and stops with exit code 75. The key is meant for machines on which signals do not reach a job"},
 
     {.section = "log",
      .key = "level",

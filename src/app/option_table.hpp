@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The one table of all keys of a config file. Reading, error messages, `--help-config`, `--print-config`, the copy in
-// the mesh file and the table in configs/keys.md all come from it.
+// The table of all keys of a config file. Reading, error messages, `--help-config`, `--print-config`, the copy of the
+// config in the mesh file and the table in configs/keys.md all use this table.
 #pragma once
 
 #include <limits>
@@ -19,45 +19,46 @@ struct Range {
   bool low_excluded = false;
 };
 
-/// One key. Lists of words are separated by blanks.
+/// One key of a config. A list of words is separated by blanks.
 struct Option {
-  const char* section; ///< parts of the shape: "shape.NAME"
+  const char* section; ///< section of the key; "shape.NAME" for keys of parts
   const char* key;
-  const char* part_type = ""; ///< parts only: the type that the key belongs to; empty: all
+  const char* part_type = ""; ///< for keys of parts: the type of part that has the key; empty: all types
   OptionKind kind = OptionKind::number;
-  const char* fallback = ""; ///< default; empty: the key must be given, or the meaning says what holds without it
-  const char* choices = "";  ///< words that are allowed (for numbers: in addition to a number)
-  Range range{};             ///< number, integer
+  const char* fallback = ""; ///< default; empty: the key must be given, unless `meaning` says what happens without it
+  const char* choices = "";  ///< allowed words; for keys with numbers, words that are allowed in place of a number
+  Range range{};             ///< allowed range of numbers and integers
   const char* meaning;
 };
 
-/// Coordinates of the container; beyond, products of four differences could leave the range of a double.
+/// Largest coordinate of the container. With larger ones, products of four differences could leave the range of a
+/// double.
 inline constexpr double largest_coordinate = 1e30;
 
 inline constexpr std::string_view part_section = "shape.NAME";
 
 std::span<const Option> option_table();
 
-/// "shape.NAME" for "shape.hole", else the section itself.
+/// Returns the section in the table: "shape.NAME" for "shape.hole", otherwise the section itself.
 std::string_view table_section(std::string_view section);
-/// Returns null if there is no such key.
+/// Returns the option with this section and key; null if there is no such key.
 const Option* find_option(std::string_view section, std::string_view key);
-/// Names of all sections ("shape.NAME" among them), in the order of the table.
+/// Returns the names of all sections ("shape.NAME" is one of them), in the order of the table.
 std::vector<std::string> section_names();
-/// Keys of one section of the table.
+/// Returns the keys of one section of the table.
 std::vector<std::string> key_names(std::string_view section);
 
-/// Words of a list separated by blanks.
+/// Splits a list into its words, which are separated by blanks.
 std::vector<std::string> split_words(std::string_view text);
 
-/// "a number > 0", "auto or an integer from 1 to 10": what may stand behind the key.
+/// Returns a description of the allowed values of a key, such as "a number > 0" or "auto or an integer from 1 to 10".
 std::string expectation(const Option& option);
 
-/// Returns what is wrong with a value, without its place, such as `'radius = -1' in [shape.hole]: expected a number >
-/// 0`; empty if the value is good.
+/// Returns why a value is wrong, without its line, such as `'radius = -1' in [shape.hole]: expected a number > 0`;
+/// empty if the value is allowed.
 std::string value_problem(const Option& option, std::string_view section, const std::string& value);
 
-/// The table as Markdown, as `--help-config` prints it.
+/// Returns the table in Markdown, as `--help-config` prints it.
 std::string help_config();
 
 } // namespace trime::app

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Values as texts: strict conversions that take a whole text or nothing.
+// Converts texts to values. A text with anything before or after the value is refused.
 #pragma once
 
 #include "trime/geometry/vec2.hpp"
@@ -10,13 +10,13 @@
 
 namespace trime::app {
 
-/// A finite number; "1e3", "+2", ".5" are fine, "1,5", "nan", "inf", "3x" are not.
+/// Reads a finite number. The function accepts "1e3", "+2" and ".5", and refuses "1,5", "nan", "inf" and "3x".
 std::optional<double> parse_number(std::string_view text);
-/// A whole number up to 2^53, also in the form "1e6".
+/// Reads an integer of at most 2^53 in magnitude; the form "1e6" is allowed.
 std::optional<std::int64_t> parse_integer(std::string_view text);
-/// "true" or "false".
+/// Reads "true" or "false".
 std::optional<bool> parse_boolean(std::string_view text);
-/// Two numbers separated by blanks.
+/// Reads two numbers separated by blanks.
 std::optional<geometry::Vec2> parse_pair(std::string_view text);
 
 } // namespace trime::app

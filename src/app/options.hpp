@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// All options of a run, as plain structs: the content of the config file after it was read and checked.
+// SPDX-License-Identifier: BSD-3-Clause All options of a run, as plain structs. The options are the content of a config
+// file after it was read and checked.
 #pragma once
 
 #include "formats/mesh_series.hpp"
@@ -14,65 +14,69 @@
 
 namespace trime::app {
 
-/// That a mesh may have. Ids have 64 bits, and the start counts weights of 2^20 per point in them: 8e12 would fit.
+/// Largest number of points of a mesh. Ids have 64 bits, and the start of a run adds up weights of 2^20 per point in
+/// them, so 8e12 points would fit.
 inline constexpr double most_points = 1e11;
 
-/// One section [shape.NAME]; the fields of other types keep their defaults.
+/// One section [shape.NAME] of a config. Members that belong to other types of part keep their defaults.
 struct PartOptions {
   std::string name;
-  std::string type; ///< rectangle, circle, triangle, contour, expression
+  std::string type; ///< rectangle, circle, triangle, contour or expression
   geometry::Box box;
   geometry::Vec2 center;
   double radius = 0;
   std::array<geometry::Vec2, 3> corners;
-  std::string file;              ///< path as the program can open it
-  bool file_is_relative = false; ///< the user wrote it relative to the config file
-  std::string attribute;         ///< attribute of map features that names the boundary; empty if not used
+  std::string file; ///< path of the contour file, relative to the working directory of the program or absolute
+  bool file_is_relative = false; ///< true if the user gave the path relative to the config file
+  std::string attribute;         ///< attribute of map features that names the boundary; empty: no attribute
   bool normalize = false;
   std::string sdf; ///< formula of x and y
 };
 
-/// Section [sizing]; the absolute bounds are among the options of the mesher.
+/// The section [sizing] of a config. The absolute bounds of the size are in meshing::MeshOptions.
 struct SizingOptions {
-  std::string type = "uniform"; ///< uniform, automatic, expression
-  double gradation = 0.1;       ///< automatic: 0 makes it uniform
-  std::string expression;       ///< a valid formula if the type is expression
-  std::string expression_place; ///< for messages: "config.ini:17: 'expression' in [sizing]"
+  std::string type = "uniform"; ///< uniform, automatic or expression
+  double gradation = 0.1;       ///< for the type automatic; 0 makes the size uniform
+  std::string expression;       ///< formula of the size, already checked, if the type is expression
+  std::string expression_place; ///< origin of the formula for messages: "config.ini:17: 'expression' in [sizing]"
 };
 
-/// The file of [meshing] fixed_points.
+/// The file that the key `fixed_points` in [meshing] names.
 struct FixedPointsFile {
-  std::string file; ///< path as the program can open it; empty: none
+  std::string file; ///< path relative to the working directory of the program or absolute; empty: no file
   bool file_is_relative = false;
-  std::string normalize_with; ///< name of the contour whose normalisation they undergo; empty: none
+  std::string
+      normalize_with; ///< name of the contour whose normalisation is applied to the points; empty: no normalisation
 };
 
-/// Section [checkpoint].
+/// The section [checkpoint] of a config.
 struct CheckpointOptions {
-  double interval = 0;   ///< seconds; 0: only on a signal
-  int keep = 2;          ///< files in turn
-  std::string stop_file; ///< empty: none
+  double interval = 0;   ///< seconds between checkpoints; 0: checkpoints are written only after a signal
+  int keep = 2;          ///< number of checkpoint files, which are overwritten in turn
+  std::string stop_file; ///< path of the stop file; empty: no stop file
 };
 
 struct RunOptions {
   std::vector<PartOptions> parts;
-  std::string geometry;   ///< the expression that joins the parts
-  std::string projection; ///< projection of contours: empty, `auto`, or a reference system that PROJ knows
-  bool periodic_x = false, periodic_y = false; ///< sides of the container, for the frame in which the shape is made
+  std::string geometry;   ///< the expression that joins the parts of the shape
+  std::string projection; ///< projection of contours: empty for none, `auto`, or a reference system that PROJ knows
+  bool periodic_x = false, periodic_y = false; ///< whether opposite sides of the container are joined
   geometry::Box container = geometry::unit_square;
-  bool container_is_automatic = false; ///< no side is given: the container may become one around the shape
-  meshing::MeshOptions mesh;           ///< without the fixed points, which are read when the shape is
+  bool container_is_automatic =
+      false; ///< true if no side of the container is given: then it may become a box around the shape
+  meshing::MeshOptions
+      mesh; ///< options of the mesher, without the fixed points, which are read together with the shape
   FixedPointsFile fixed_points;
   SizingOptions sizing;
-  int setup_threads = 0;         ///< per rank, while shape and size field are made; 0: chosen from the machine
-  int mesh_threads = 0;          ///< per rank, from then on; 0: chosen from the machine
-  formats::SeriesOptions output; ///< without the names, which the shape knows
-  bool write = true;             ///< false: nothing is written
+  int setup_threads = 0;         ///< threads per rank while shape and size field are made; 0: chosen from the machine
+  int mesh_threads = 0;          ///< threads per rank during meshing; 0: chosen from the machine
+  formats::SeriesOptions output; ///< options of the output, without the names of the parts, which the shape knows
+  bool write = true;             ///< false if no file is written
   CheckpointOptions checkpoint;
   LogLevel log_level = LogLevel::summary;
   int log_interval = 0;
-  std::string resolved;              ///< the whole config with all defaults, as a complete ini
-  std::vector<std::string> warnings; ///< one sentence each
+  std::string resolved;              ///< the whole config with all defaults, as a complete ini text
+  std::vector<std::string> warnings; ///< warnings for the user, one sentence each
 };
 
 } // namespace trime::app

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Memory for large arrays that is used again: pages that the system has to find and clear cost more than what most
-// loops do with them.
+// Allocates memory for large arrays, and reuses memory that was freed. Getting new pages from the system, which clears
+// them, takes longer than most loops over the array.
 #pragma once
 
 #include <array>
@@ -10,25 +10,26 @@
 
 namespace trime::app {
 
-/// @brief Blocks of one reserved range of addresses. A freed block keeps its pages for the next one, as long as blocks
-/// in use and kept pages together are no more than were ever in use at one time: so it never raises the peak of memory.
-/// Asks the system for huge pages. O(blocks) a call, so not for small things. The addresses are never given back.
-/// Thread-safe.
+/// @brief Allocates blocks in one reserved range of addresses. The pages of a freed block are kept for the next block,
+/// as long as used and kept pages together are no more than the largest number in use so far; so the pool never raises
+/// the peak of memory. Asks the system for huge pages. A call costs O(blocks), so the pool does not suit small objects.
+/// The range of addresses is never given back. Thread-safe.
 class PagePool {
 public:
   constexpr PagePool() = default;
 
-  /// A block, or null if there is no room for it here: then memory must come from elsewhere.
+  /// Returns a new block; null if the pool has no room for it, so that the caller must use other memory.
   void* allocate(std::size_t bytes);
-  /// Frees a block. Returns false if the pointer is not one of its blocks.
+  /// Frees a block. Returns false if the pointer does not belong to this pool.
   bool deallocate(void* block);
 
-  /// Bytes of blocks in use; bytes of pages that are kept for others.
+  /// Returns the bytes of blocks in use.
   std::size_t used() const { return used_; }
+  /// Returns the bytes of pages that are kept for later blocks.
   std::size_t kept() const { return kept_; }
 
 private:
-  /// Ranges follow each other without a gap, by address.
+  /// A used or free range of addresses. Ranges are ordered by address and have no gaps between them.
   struct Range {
     std::size_t begin = 0, size = 0; // bytes
     bool used = false, has_pages = false;
@@ -46,8 +47,8 @@ private:
 
   std::mutex mutex_;
   std::atomic<std::byte*> begin_ = nullptr; // set once, after room_
-  std::size_t room_ = 0, top_ = 0;          // bytes that are reserved; that the ranges take
-  std::size_t granule_ = 0;                 // sizes of ranges are multiples of it
+  std::size_t room_ = 0, top_ = 0;          // bytes that are reserved, and bytes that the ranges take up
+  std::size_t granule_ = 0;                 // the size of each range is a multiple of this number of bytes
   bool tried_ = false;
   std::array<Range, most_ranges> ranges_{};
   std::size_t count_ = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Keys and values of earlier versions, which configs may still have.
+// Accepts keys and values under the names of earlier versions, which old configs may have.
 #pragma once
 
 #include "app/ini.hpp"
@@ -10,8 +10,9 @@
 
 namespace trime::app {
 
-/// @brief Reads the text of a config and the overrides. Keys and values with an old name get their present one.
-/// @param warnings gets a sentence for each old key
+/// @brief Reads the text of a config and the overrides, and replaces old names of keys and values by their present
+/// names.
+/// @param warnings receives a sentence for each old name
 IniDocument read_document(std::string_view text, const std::vector<std::string>& overrides, Diagnostics& problems,
                           std::vector<std::string>& warnings);
 

@@ -109,7 +109,7 @@ void print_outlook(const meshing::Outlook& outlook, Log& log) {
   for (const PlacedText& line : boundary::describe(outlook.features))
     log.summary("boundary: {}", line.formatted());
   if (outlook.keeps_all) {
-    log.summary("nothing of the shape is simplified at this size");
+    log.summary("no part of the shape is simplified at this size");
     return;
   }
   if (const PlacedText warning = boundary::loss_warning(outlook.features); !warning.text().empty())

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes the metadata of the group /trime_mpi: what the mesh file says about the run that made it.
+// Makes the metadata of the HDF5 group /trime_mpi, in which a mesh file describes the run that made it.
 #pragma once
 
 #include "app/command_line.hpp"
@@ -18,7 +18,8 @@
 
 namespace trime::app {
 
-/// Where a mesh comes from. Only that of rank 0 counts. @pre all outlive this object
+/// The sources of the metadata: command line, options, machine, shape. Only the values of rank 0 are written.
+/// @pre all references outlive this object
 struct Provenance {
   const CommandLine& line;
   const RunOptions& options;
@@ -27,14 +28,14 @@ struct Provenance {
   const geometry::Boundary& boundary;
   const std::vector<NormalizedPart>& normalized;
   const MapSystem& map;
-  bool is_root;          ///< only rank 0 asks PROJ, since the other ranks' metadata is not written
-  record::Origin origin; ///< ring_lines: UserPlaces::ring_lines
+  bool is_root; ///< whether this is rank 0; other ranks do not call PROJ, because their metadata is not written
+  record::Origin origin; ///< names and markers of the mesh; its ring_lines come from UserPlaces::ring_lines
 };
 
-/// Everything that the group /trime_mpi holds. Not collective.
+/// Returns all metadata of the group /trime_mpi for the final mesh. Not collective.
 io::Metadata describe_run(const Provenance& provenance, const meshing::MeshResult& result, const SizeSummary& size,
                           const Measurements& measured);
-/// Makes the metadata for a mesh in the middle of a run.
+/// Returns the metadata for a mesh in the middle of a run.
 io::Metadata describe_step(const Provenance& provenance, const meshing::Snapshot& snapshot);
 
 } // namespace trime::app

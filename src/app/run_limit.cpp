@@ -76,9 +76,11 @@ Cause replicated(const Measurements& m) {
   for (const Counter table : {Counter::grid_bytes, Counter::boundary_bytes, Counter::size_bytes, Counter::rank_bytes})
     bytes += m.counters[table].max;
   const double share = static_cast<double>(bytes) / static_cast<double>(std::max<std::int64_t>(m.peak_memory, 1));
-  return {share, fmt::format("memory: tables that every rank holds as a whole take {:.1f} MiB, {:.0f} % of what a rank "
-                             "has at most",
-                             static_cast<double>(bytes) / 0x1p20, percent(share))};
+  return {
+      share,
+      fmt::format(
+          "memory: tables that every rank holds completely take {:.1f} MiB, {:.0f} % of the largest memory of a rank",
+          static_cast<double>(bytes) / 0x1p20, percent(share))};
 }
 
 std::string longest_phase(const Measurements& m) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Says in one sentence what keeps a run from being faster on its ranks.
+// Says in one sentence what limits the speed or the size of a run on its number of ranks.
 #pragma once
 
 #include "app/measurements.hpp"
@@ -8,20 +8,21 @@
 
 namespace trime::app {
 
-/// Numbers that decide which sentence the report prints.
+/// The numbers that decide which sentence the report prints.
 struct LimitRules {
-  /// [1] Smaller shares of time or memory are not worth a sentence.
+  /// [1] A cause with a smaller share of time or memory is not mentioned.
   static constexpr double worth_telling = 0.05;
-  /// [s] Latency of a message, in addition to the time for its bytes, and of a collective for each doubling of the
-  /// ranks, on the network of a cluster. Between hosts with TCP it is twenty times as long.
+  /// [s] Latency on the network of a cluster: of a message in addition to the time for its bytes, and of a collective
+  /// call for each doubling of the ranks. Between hosts with TCP the latency is twenty times as long.
   static constexpr double latency = 2e-6;
-  /// [1] The sentence names fetch rounds from this number per sweep on: most sweeps need no round.
+  /// [1] The sentence mentions rounds in which ranks fetch ghosts if there are at least this many per sweep. Most
+  /// sweeps need no such round.
   static constexpr double many_fetch_rounds = 0.5;
 };
 
-/// @brief One sentence on what limits a run: of some causes that with the largest share of the time that more ranks
-/// would not win back, or of a rank's memory. On one rank: the phase that takes longest. It is an estimate: of counters
-/// and the times of phases, not of waiting.
+/// @brief Returns one sentence about the limit of a run. The sentence names the cause with the largest share of the
+/// time that more ranks would not reduce, or of the memory of a rank. With one rank it names the phase that takes
+/// longest. The estimate uses counters and the times of phases; it does not measure waiting.
 std::string run_limit(const Measurements& measured);
 
 } // namespace trime::app

@@ -32,8 +32,8 @@ std::string area_text(const meshing::MeshResult& result) {
                                  [](const mesh::Check& check) { return check.name == "area"; });
   if (area == result.checks.end() || result.shape_area <= 0)
     return "";
-  return fmt::format("Area of the mesh {:.9g}, of the shape {:.9g}: {:+.2e} of it\n\n", area->found, result.shape_area,
-                     area->found / result.shape_area - 1);
+  return fmt::format("Area of the mesh {:.9g}, of the shape {:.9g}: relative difference {:+.2e}\n\n", area->found,
+                     result.shape_area, area->found / result.shape_area - 1);
 }
 
 /// How many points were asked for, if that is not what was made.
@@ -100,7 +100,7 @@ std::string bad_triangles_text(const mesh::QualitySummary& q) {
     text += fmt::format("  {:>9} at {}: ", ratio_text(one.alpha), Place(one.place, 10));
     text += one.corner_degrees > 0
                 ? fmt::format("at the corner {} of {:.3g} degrees\n", Place(one.corner, 10), one.corner_degrees)
-                : "no sharp corner near\n";
+                : "there is no sharp corner near it\n";
   }
   return text;
 }
@@ -220,7 +220,7 @@ std::string incompleteness(const meshing::MeshResult& result, bool written) {
         reason += " " + check.name;
   }
   return fmt::format("the mesh is NOT complete ({}){}; exit code 5", reason,
-                     written ? ": it is marked so in the file" : "");
+                     written ? "; the mesh file is marked as incomplete" : "");
 }
 
 } // namespace trime::app

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The report of a run as text for people, and its exit code.
+// Makes the report of a run as text for people, and chooses its exit code.
 #pragma once
 
 #include "app/measurements.hpp"
@@ -14,26 +14,31 @@
 
 namespace trime::app {
 
-/// Facts about the size field.
+/// A description of the size field and the range of its values.
 struct SizeSummary {
-  std::string description;          ///< such as "automatic, gradation 0.1, ..."
-  double smallest = 0, largest = 0; ///< target edge length over the points of the mesh
+  std::string description;          ///< a text such as "automatic, gradation 0.1, ..."
+  double smallest = 0, largest = 0; ///< smallest and largest target edge length at the points of the mesh
 };
 
+/// Finds the range of target edge lengths over all ranks.
 /// @note Collective.
 SizeSummary summarize_size(std::string description, const mesh::DistributedMesh& mesh, const comm::Communicator& comm);
 
-/// @brief The report of a run, several lines. `files` may be empty.
+/// @brief Returns the report of a run, which has several lines. `files` may be empty.
 std::string run_report(const meshing::MeshResult& result, const SizeSummary& size, const Measurements& measured,
                        const io::WrittenFiles& files, const std::vector<NormalizedPart>& normalized = {});
 
-/// Number of the triangulation that became the final mesh, from 1: one more than those of the sweeps.
+/// Returns the number of the triangulation that became the final mesh, counted from 1. The sweeps made all earlier
+/// ones.
 int final_retriangulation(const meshing::MeshResult& result);
 
-/// Returns the exit code of a finished run: done, or incomplete if the stop rule was not met or a check failed.
+/// Returns the exit code of a finished run: done, or incomplete if the sweeps were ended by max_sweeps or a check
+/// failed.
 ExitCode exit_code(const meshing::MeshResult& result);
 
-/// Why the mesh is not complete, one sentence for a warning. @pre !is_complete(result) @param written to a file
+/// Returns a sentence for a warning that says why the mesh is not complete.
+/// @pre !is_complete(result)
+/// @param written whether the mesh was written to a file
 std::string incompleteness(const meshing::MeshResult& result, bool written);
 
 } // namespace trime::app

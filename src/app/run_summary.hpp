@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The summary that a run prints at its end unless the user asks for more: at most 16 lines, each fact once.
+// Makes the summary that a run prints at its end by default: at most 16 lines, with each fact once.
 #pragma once
 
 #include "app/measurements.hpp"
@@ -12,23 +12,25 @@
 
 namespace trime::app {
 
-/// Holds references to the results of a run, for its summary. @pre all outlive this object
+/// References to the results of a run, for its summary.
+/// @pre all referenced objects outlive this object
 struct RunFacts {
   const Provenance& provenance;
   const meshing::MeshResult& result;
   const SizeSummary& size;
   const Measurements& measured;
-  const io::WrittenFiles& files;               ///< empty if the run writes no mesh
-  const std::vector<std::int64_t>& part_edges; ///< edges of the mesh on each part of the boundary, see edges_of_parts
+  const io::WrittenFiles& files; ///< the files of the mesh; empty if the run writes no mesh
+  const std::vector<std::int64_t>&
+      part_edges; ///< number of mesh edges on each part of the boundary, see edges_of_parts
 };
 
-/// @brief Counts the boundary edges of the whole mesh by the part of the shape that they follow.
-/// @param parts the number of parts
+/// @brief Counts the boundary edges of the whole mesh for each part of the shape.
+/// @param parts number of parts of the shape
 /// @note Collective.
 std::vector<std::int64_t> edges_of_parts(const mesh::DistributedMesh& mesh, std::size_t parts,
                                          const comm::Communicator& comm);
 
-/// The summary. Each line begins with a word that says what it is about. The last line ends without a line end.
+/// Returns the summary. Each line begins with a word that names its subject. There is no line end after the last line.
 std::string run_summary(const RunFacts& facts);
 
 } // namespace trime::app

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From the options of a run to its size field.
+// Makes the size field from the options of a run.
 #pragma once
 
 #include "app/options.hpp"
@@ -14,13 +14,14 @@
 
 namespace trime::app {
 
-/// A size field with what it needs to live. Move-only.
+/// A size field together with the objects that it refers to. Move-only.
 struct BuiltSize {
-  std::unique_ptr<const Formula> formula; ///< formula of an expression
+  std::unique_ptr<const Formula> formula; ///< the formula, if the size is an expression
   std::unique_ptr<const sizing::SizeField> field;
-  std::string description; ///< for the report: "automatic, gradation 0.1, features of 0.004 and more"
+  std::string description; ///< text for the report, such as "automatic, gradation 0.1, features of 0.004 and more"
 };
 
+/// Makes the size field.
 /// @throws ConfigError on all ranks together
 /// @note Collective.
 BuiltSize build_size(const RunOptions& options, const geometry::Domain& domain, const comm::Communicator& comm);

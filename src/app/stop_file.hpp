@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The file of `checkpoint.stop_file`, which a run that finds it removes.
+// Checks the path of the stop file (key `checkpoint.stop_file`). A run that finds the stop file removes it and stops.
 #pragma once
 
 #include "app/command_line.hpp"
@@ -8,8 +8,10 @@
 
 namespace trime::app {
 
-/// @brief Nothing else may go with it: neither the config, nor a file that the run reads or writes.
-/// @throws ConfigError if it is one of these, FileError if it is there and no regular file; on all ranks together
+/// @brief Checks that removing the stop file cannot remove another file: it must not be the config, nor a file that the
+/// run reads or writes.
+/// @throws ConfigError if it is one of these files; FileError if it exists and is not a regular file; on all ranks
+/// together
 /// @note Collective.
 void check_stop_file(const RunOptions& options, const CommandLine& line, const comm::Communicator& comm);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a place of the container lies in the files of the user: messages of all modules speak of the container.
+// Finds where a place in the container lies in the files of the user, because messages of other modules name places in
+// the container.
 #pragma once
 
 #include "trime/contours/contour.hpp"
@@ -13,7 +14,7 @@
 
 namespace trime::app {
 
-/// A contour that was normalised: container = scale * user + shift.
+/// A contour that was normalised: container coordinates = scale * file coordinates + shift.
 struct NormalizedPart {
   std::string name; ///< name of the part
   std::string file;
@@ -21,22 +22,22 @@ struct NormalizedPart {
   geometry::Vec2 shift;
 };
 
-/// @brief The vertices of all contours, in the container and in their files. Empty at first.
+/// @brief Keeps the vertices of all contours, with their coordinates in the container and in their files.
 class UserPlaces {
 public:
-  /// @param place what the vertices undergo on their way into the container
+  /// @param place the transformation of the vertices from the file into the container
   void add(const contours::Contour& contour, const contours::Normalization& place);
 
-  /// @brief The message with `[FILE:LINE]`, the nearest vertex, behind each of its places; with `[FILE:LINE: (x, y)]`,
-  /// in the coordinates of the file, if the contour is normalised; if it is projected, these are
-  /// the coordinates of that vertex.
-  ///
-  /// Places that are far from all contours stay as they are, and so does the whole without contours. O(vertices) for
-  /// each place.
+  /// @brief Returns the message with the file and line of the nearest contour vertex after each place: `[FILE:LINE]`.
+  /// If the contour is normalised, the text is `[FILE:LINE: (x, y)]` with the place in coordinates of the file. If the
+  /// contour is projected, (x, y) are the coordinates of the nearest vertex in the file.
+  /// Nothing is added to places that are far from all contours, or if there are no contours. Cost: O(vertices) for each
+  /// place.
   std::string explain(const PlacedText& message) const;
 
-  /// @brief For each loop of the boundary the line of the file on which its ring begins: that of the first vertex of
-  /// the loop that is one of a contour; 0 if none is. O(vertices log(vertices))
+  /// @brief Returns for each loop of the boundary the line of its file on which its ring begins, which is the line of
+  /// the loop's first vertex that is also a vertex of a contour; 0 if there is no such vertex. Cost: O(vertices
+  /// log(vertices)).
   std::vector<std::int32_t> ring_lines(const geometry::Boundary& boundary) const;
 
 private:
@@ -44,11 +45,12 @@ private:
     std::string file;
     contours::Normalization place;
     bool moved;
-    geometry::Box box; ///< in the container
+    geometry::Box box; ///< bounding box in the container
     std::vector<geometry::Vec2> vertices;
     std::vector<int> lines;
-    std::vector<std::size_t> ring_ends;  ///< the vertex behind the last of each ring
-    std::vector<geometry::Vec2> in_file; ///< place in the file of each vertex; empty if not projected
+    std::vector<std::size_t> ring_ends; ///< for each ring, the index after its last vertex
+    std::vector<geometry::Vec2>
+        in_file; ///< coordinates of each vertex in the file; empty if the contour is not projected
   };
   std::string name_of(geometry::Vec2 place) const;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Point sets of the benchmarks: the unit square filled with n points.
+// Makes sets of n points in the unit square for benchmarks.
 #pragma once
 
 #include "core/angle.hpp"
@@ -50,24 +50,24 @@ inline mesh::SiteList random_points(std::int64_t n) {
   return sites;
 }
 
-/// Returns the element size of graded_points. It grows with the distance from a point inside; densities differ by a
-/// factor of 900.
+/// Returns the element size for graded_points. The size grows with the distance from a point inside the square; the
+/// densities of points differ by a factor of 900.
 inline double graded_size(geometry::Vec2 p) {
   return 0.001 + 0.03 * geometry::length(p - geometry::Vec2{0.4, 0.45});
 }
 
-/// Returns random points with density h^-2, where h is in proportion to graded_size. The sample is stratified, so the
-/// number has the exact mean.
+/// Returns random points with a density proportional to graded_size^-2. The sample is stratified, so the number of
+/// points equals its expected value.
 inline mesh::SiteList graded_points(std::int64_t n) {
   const geometry::Lattice lattice(unit_square);
   mesh::SiteList sites;
   for (std::uint64_t key = 0; static_cast<std::int64_t>(sites.size()) < n; ++key) {
-    // A log-uniform radius from the centre fits the density h^-2 roughly; rejection does the rest.
+    // A log-uniform radius around the centre approximates the density h^-2; rejection of some points makes it exact.
     const double reach = 0.8, core = 0.001 / 0.03;
     const double r = core * (std::exp(std::log(1 + reach / core) * (0.5 + 0.5 * noise(key, 2))) - 1);
     const SinCos turn = sin_cos(pi * noise(key, 3));
     const geometry::Vec2 p = geometry::Vec2{0.4, 0.45} + r * geometry::Vec2{turn.cos, turn.sin};
-    // The radial density of the proposal is 1/(core + r), the wanted one r/(core + r)^2.
+    // The radial density of the proposed points is 1/(core + r), and the wanted one is r/(core + r)^2.
     if (unit_square.contains(p) && 0.5 + 0.5 * noise(key, 4) < r / (core + r))
       sites.push_back({lattice.snap(p)});
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gives the element size along the curves of a boundary.
+// Gives the target edge length h along the curves of a boundary.
 #pragma once
 
 #include "sizing/lowered_size.hpp"
@@ -13,23 +13,26 @@
 namespace trime::boundary {
 
 /// @brief Samples the relative size along all loops: at the start of each piece, and then at distances of half a size.
-/// During the search for a factor, a boundary is laid many times, and evaluating the field would take most of the time.
-/// Immutable, thread-safe.
+/// The search for the factor of the size places sites on the boundary many times, and evaluating the size field each
+/// time would dominate its cost. Immutable, thread-safe.
 class SizeSamples {
 public:
-  /// Uses all threads. @throws GeometryError if the size at a place is not positive and finite, or needs far too many
+  /// Uses all threads.
+  /// @throws GeometryError if the size at a place is not positive and finite, or so small that it needs far too many
   /// samples
   SizeSamples(const geometry::Boundary& boundary, const sizing::SizeField& relative, const sizing::ScaledSize& asked);
 
-  /// Returns whether the samples are dense enough for sizes with this factor.
+  /// Returns whether the samples are dense enough for the size with this factor.
   bool serve(double factor) const { return factor >= 0.75 * factor_; }
 
-  /// The place of the last look-up in a loop.
+  /// Keeps the position of the last look-up in a loop, so that the next one is fast.
   struct Cursor {
     std::size_t index = 0;
   };
-  /// Returns the size at a place by linear interpolation. O(1) for places in ascending order. @param whole the length
-  /// of the piece
+  /// Returns the relative size at a place by linear interpolation. Cost: O(1) if places are looked up in ascending
+  /// order.
+  /// @param along arc length from the start of the piece
+  /// @param whole the length of the piece
   double at(std::size_t loop, LocalIndex piece, double along, double whole, Cursor& cursor) const;
 
 private:
@@ -39,27 +42,29 @@ private:
   };
   struct OfLoop {
     std::vector<Sample> samples;
-    std::vector<std::size_t> first; // first sample of each piece, and the end
+    std::vector<std::size_t> first; // index of the first sample of each piece, and the end
   };
   double factor_;
   std::vector<OfLoop> loops_;
 };
 
-/// The size at a place, and the size asked for before it was lowered.
+/// The size at a place, and the size that the user asked for there before it was lowered.
 struct SizePair {
   double size = 0, asked = 0;
 };
 
-/// @brief Gives both sizes along a boundary, from the fields or from samples of the relative size. Keeps references.
+/// @brief Gives the size and the asked size along a boundary, from the size fields or from samples. Keeps references to
+/// its arguments.
 class BoundarySizes {
 public:
   BoundarySizes(const sizing::SizeField& size, const sizing::SizeField& asked) : size_(size), asked_(asked) {}
 
   struct Sampled {
     const SizeSamples& relative;
-    const sizing::ScaledSize& asked;    ///< size asked for in the last stage
-    const sizing::LoweredSize* lowered; ///< that size, lowered by limits; null if there are no limits
-    double coarsening;                  ///< h of this stage over h of the last stage
+    const sizing::ScaledSize& asked; ///< the size that the last stage asks for
+    const sizing::LoweredSize*
+        lowered;       ///< `asked`, lowered near narrow parts of the boundary; null if it is lowered nowhere
+    double coarsening; ///< h of this stage divided by h of the last stage
   };
   BoundarySizes(const sizing::SizeField& size, const sizing::SizeField& asked, const Sampled& sampled)
       : size_(size), asked_(asked), sampled_(sampled) {}
@@ -70,9 +75,10 @@ public:
   struct PiecePlace {
     std::size_t loop;
     LocalIndex piece;
-    double along, whole;      ///< arc length from the start of the piece, and length of the piece
-    geometry::Vec2 canonical; ///< this place in the container
+    double along, whole;      ///< arc length from the start of the piece, and the length of the piece
+    geometry::Vec2 canonical; ///< position of the place in the container
   };
+  /// Returns both sizes at a place.
   /// @throws GeometryError if a size is not positive and finite
   SizePair at(const PiecePlace& place, SizeSamples::Cursor& cursor) const;
 

@@ -82,8 +82,9 @@ void CorneredBoundary::add_corner(Vec2 p) {
   for (const std::size_t origin : tree_.within(p, search_reach * tolerance_))
     for (const Vec2 shift : shifts_of(origin))
       look_near(origin, p + shift, best);
-  TRIME_ASSERT(best.distance <= search_reach * tolerance_, "({}, {}) is {} from the boundary, allowed are {}", p.x, p.y,
-               best.distance, tolerance_);
+  TRIME_ASSERT(best.distance <= search_reach * tolerance_,
+               "the point ({}, {}) is {} away from the boundary, at most {} are allowed", p.x, p.y, best.distance,
+               tolerance_);
   Link& link = links_[best.link];
   const bool at_start = geometry::length(best.image - link.piece.start) <= tolerance_;
   const bool at_end = geometry::length(best.image - link.piece.end) <= tolerance_;

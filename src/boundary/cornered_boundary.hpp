@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Turns points on a boundary into corners, one after the other.
+// Turns points on a boundary into corners of it, one after the other.
 #pragma once
 
 #include "trime/geometry/boundary.hpp"
@@ -13,38 +13,40 @@
 
 namespace trime::boundary {
 
-/// @brief The given pieces, and the parts into which points have divided them, in one ring for each loop.
+/// @brief A boundary whose pieces are divided at given points. Each loop is a linked list of pieces and parts of
+/// pieces.
 ///
-/// The pieces near a point are found in a tree of the given pieces, and parts of a piece by their place along it. So F
-/// points on M pieces take O((F + M) log(F + M)).
+/// A tree finds the given pieces near a point; a sorted map finds the part of a piece at the point. So adding F points
+/// to M pieces takes O((F + M) log(F + M)) time.
 class CorneredBoundary {
 public:
-  /// @param pieces tree of the pieces of `boundary` @param tolerance how far from a curve a point on it may lie
-  /// @pre `boundary` and `pieces` outlive it
+  /// @param pieces tree of the pieces of `boundary`
+  /// @param tolerance largest distance from a curve at which a point counts as lying on it
+  /// @pre `boundary` and `pieces` outlive this object
   CorneredBoundary(const geometry::Boundary& boundary, const geometry::PieceTree& pieces, double tolerance);
 
-  /// @brief Divides the nearest piece at p, or moves its end to p if the end is equally near.
-  /// @pre p, or an image of it, lies on a given piece; no earlier point is within the tolerance of p
+  /// @brief Divides the piece nearest to p at p. If the end of a piece is equally near, moves this end to p instead.
+  /// @pre p, or a periodic image of p, lies on a given piece; no earlier point is within the tolerance of p
   void add_corner(geometry::Vec2 p);
-  /// Returns the boundary with a corner at each of the points. O(pieces)
+  /// Returns the boundary with a corner at each of the added points. Cost: O(pieces).
   geometry::Boundary result() const;
-  /// Number of distances from points to pieces that were computed so far.
+  /// Returns how many distances from points to pieces were computed so far.
   std::int64_t distances() const { return distances_; }
 
 private:
-  /// The parts of a given piece, by the place along it where they begin.
+  /// The parts of a given piece, sorted by the position along it at which they begin.
   using Parts = std::multimap<double, std::size_t>;
   /// A piece, or a part of one.
   struct Link {
     geometry::Piece piece;
     std::size_t before, after; // neighbours along the loop
-    std::size_t origin;        // the given piece
-    Parts::iterator place;     // its part, if the given piece was divided
+    std::size_t origin;        // index of the given piece
+    Parts::iterator place;     // entry of the part in Parts, if the given piece was divided
   };
   struct Nearest {
     double distance;
     std::size_t link;
-    geometry::Vec2 image; // image of the point
+    geometry::Vec2 image; // periodic image of the point
   };
 
   void look_near(std::size_t origin, geometry::Vec2 image, Nearest& best);
@@ -56,14 +58,14 @@ private:
   const geometry::Boundary& boundary_;
   const geometry::PieceTree& tree_;
   const double tolerance_;
-  std::vector<geometry::Vec2> images_;           // shifts to images of a point that may touch the container
-  std::vector<const geometry::Piece*> given_;    // given pieces, loop by loop
-  std::vector<Link> links_;                      // the first ones belong to given_
-  std::unordered_map<std::size_t, Parts> parts_; // parts of the divided pieces
+  std::vector<geometry::Vec2> images_;        // shifts to the periodic images of a point that may touch the container
+  std::vector<const geometry::Piece*> given_; // given pieces, loop by loop
+  std::vector<Link> links_;                   // pieces and parts of pieces; the first ones are the pieces of given_
+  std::unordered_map<std::size_t, Parts> parts_; // the parts of each divided piece
   std::int64_t distances_ = 0;
 };
 
-/// Returns the shifts to the images of a point in the container and next to it, {0, 0} first.
+/// Returns the shifts from a point to its periodic images in the container and next to it; {0, 0} is the first.
 std::vector<geometry::Vec2> images_of(const geometry::Periods& periods);
 
 } // namespace trime::boundary

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Collects the report about features of the boundary that are smaller than the triangles.
+// Makes the report about features of the boundary that are smaller than the triangles.
 #pragma once
 
 #include "polygon/polygon.hpp"
@@ -13,14 +13,18 @@
 
 namespace trime::boundary {
 
-/// @param limits places where the size was lowered below `asked`, the size asked for O(sites of the boundary + limits)
+/// Makes the report of the last stage.
+/// @param limits places where the size was lowered
+/// @param asked the size before it was lowered
+/// Cost: O(sites of the boundary + limits).
 FeatureReport report_features(const polygon::BoundarySites& boundary, std::span<const sizing::SizeLimit> limits,
                               const sizing::SizeField& asked);
 
-/// @brief Adds how much the changes from the given boundary to the meshed one removed from the shape and added to it.
-/// @param dropped the loops that were left out finally
-/// @param asked as above
-/// Costs and errors as find_loop_fates.
+/// @brief Adds to the report how much of the shape was removed, and how much was added, when the given boundary was
+/// replaced by the meshed one.
+/// @param dropped loops that were left out at the end
+/// @param asked the size before it was lowered
+/// Costs and errors are those of find_loop_fates.
 void report_losses(const geometry::Boundary& given, const geometry::Boundary& meshed,
                    const polygon::Simplification& simplified, const polygon::DroppedLoops& dropped,
                    const sizing::SizeField& asked, const geometry::Lattice& lattice, FeatureReport& report);

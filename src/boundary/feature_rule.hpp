@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Decides which features of the boundary that are smaller than the triangles are left out.
+// Decides which features of the boundary that are smaller than the triangles are left out of the mesh.
 #pragma once
 
 #include "polygon/polygon.hpp"
@@ -11,9 +11,10 @@
 
 namespace trime::boundary {
 
-/// @brief The rule drops loops whose perimeter is below `least_perimeter` local sizes. It leaves out corners where
-/// chords then stay within `tolerance` local sizes of the boundary. It always keeps corners with arms of at least two
-/// local sizes on both sides, and corners that are asked for (Piece::corner). The default keeps everything.
+/// @brief The rule drops loops whose perimeter is below `least_perimeter` local sizes. The rule leaves out a corner if
+/// the boundary edges then stay within `tolerance` local sizes of the boundary. The rule always keeps corners whose two
+/// sides are at least two local sizes long, and corners that the user asked for (Piece::corner). The default keeps
+/// everything.
 struct FeatureRule {
   double tolerance = 0;
   double least_perimeter = 0;
@@ -21,24 +22,25 @@ struct FeatureRule {
   geometry::Vec2 place{}; ///< for Components::at
 };
 
-/// @brief Throws unless one component of the given boundary can be chosen as the options say. O(pieces)
-/// @throws GeometryError if the place lies outside of the shape, or the container is periodic
+/// @brief Checks that the options choose exactly one component of the given boundary. Cost: O(pieces).
+/// @throws GeometryError if the chosen place lies outside of the shape, or the container is periodic
 void check_choice_of_component(const geometry::Boundary& boundary, const FeatureOptions& options);
 
-/// @brief Adds the loops of all components but the chosen one to those that are dropped. If no component holds the
-/// place, since it was cut off, the nearest is chosen. Nothing happens in a periodic container. O(pieces) for each
-/// component around a hole
+/// @brief Adds the loops of all components except the chosen one to the dropped loops. If no component contains the
+/// chosen place, because the part around it was cut off, the nearest component is chosen. Does nothing in a periodic
+/// container. Cost: O(pieces) for each component around a hole.
 void drop_other_components(const geometry::Boundary& boundary, const FeatureRule& rule, polygon::DroppedLoops& dropped);
 
-/// Signed, counter-clockwise positive; arcs included. O(pieces) @pre the loop does not wind around the container
+/// Returns the area that a loop encloses, with exact arcs; positive if the loop is counter-clockwise. Cost: O(pieces).
+/// @pre the loop does not wind around the container
 double enclosed_area(const geometry::Loop& loop);
 
-/// Returns the boundary without the dropped loops. O(pieces)
+/// Returns the boundary without the dropped loops. Cost: O(pieces).
 geometry::Boundary boundary_without(const geometry::Boundary& boundary, const polygon::DroppedLoops& dropped);
 
-/// @brief Applies the rule. A loop stays if it winds around the container, has a corner that is asked for, or encloses
-/// more than 1 % of the area of the shape, a remaining loop, or a point of `inside`. One component always stays.
-/// O(pieces + loops log loops) for separate loops.
+/// @brief Returns the loops that the rule drops. A loop stays if it winds around the container, has a corner that the
+/// user asked for, or encloses more than 1 % of the area of the shape, a remaining loop, or a point of `inside`. One
+/// component always stays. Cost: O(pieces + loops log loops) for separate loops.
 /// @param inside points of the shape that must remain in it, in lexicographic order
 polygon::DroppedLoops drop_small_loops(const geometry::Boundary& boundary, const sizing::SizeField& size,
                                        double least_perimeter, std::span<const geometry::Vec2> inside = {});

@@ -228,10 +228,10 @@ void FixedPoints::warn_of_close_ones(const BoundaryGuard& guard, const sizing::S
     return;
   const std::string what =
       close.to_boundary
-          ? fmt::format("{} is {:.3g} from the boundary", Place(close.first), close.distance)
+          ? fmt::format("{} lies at a distance of {:.3g} from the boundary", Place(close.first), close.distance)
           : fmt::format("{} and {} are {:.3g} apart", Place(close.first), Place(close.second), close.distance);
   log.warning("{} of {} fixed points inside are nearer to each other or to the boundary than the local size: expect "
-              "small angles there. The nearest: {}, {:.2g} of the size",
+              "small angles there. The worst case: {}, which is {:.2g} times the size",
               count, inside_.size(), what, close.least);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cuts a loop into stretches between its corners, with shells at sharp corners, before sites are laid.
+// Cuts a loop into stretches between its corners, and decides where shells (sites at equal distances from a sharp
+// corner) lie.
 #pragma once
 
 #include "boundary/loop_metric.hpp"
@@ -8,32 +9,33 @@
 
 namespace trime::boundary {
 
-/// A junction that certainly becomes a site.
+/// A junction of two pieces that certainly becomes a site.
 struct LoopCorner {
   double t;
   geometry::Vec2 position;
   bool sharp;
-  std::vector<double> ahead, behind; // t of the shells on its two arms, from the corner outwards; unwrapped
+  std::vector<double> ahead, behind; // coordinates t of the shells on the two sides, from the corner outwards; not
+                                     // reduced modulo the loop's length
 };
 
-/// A stretch between two fixed places that is divided at equal quantiles.
+/// A stretch between two fixed places. The sites on a stretch divide the integral of ds/h into equal shares.
 struct Stretch {
   double from, to;
-  long intervals;                 // 0 if not known yet
-  bool ragged = false;            // if true, its sites are chosen and are not quantiles
-  const LoopCorner* at = nullptr; // the corner where it starts; null if it does not start at a corner
+  long intervals;                 // number of intervals; 0 if not known yet
+  bool ragged = false;            // if true, a shortest path chooses the sites instead
+  const LoopCorner* at = nullptr; // the corner at which the stretch starts; null if it does not start at a corner
 };
 
-/// All stretches of a loop. It may be moved, but not copied.
+/// All stretches of a loop. Movable, but not copyable.
 struct LoopStretches {
   LoopStretches() = default;
   LoopStretches(LoopStretches&&) = default;
   std::vector<LoopCorner> corners;
-  std::vector<Stretch> list; // in order along the loop; points to corners
+  std::vector<Stretch> list; // the stretches in order along the loop; they point to elements of `corners`
 };
 
-/// Cuts a loop, by all threads. Corners that turn by more than `corner_angle` degrees may be left out if `tolerance` is
-/// above 0.
+/// Cuts a loop into stretches, by all threads. If `tolerance` is above 0, corners that turn by more than `corner_angle`
+/// degrees may be left out.
 LoopStretches cut_into_stretches(const LoopMetric& metric, double corner_angle, double tolerance);
 
 } // namespace trime::boundary

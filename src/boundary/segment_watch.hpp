@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds the segments that may have a new site in their diametral discs, with one grid for each power of two of their
-// lengths. It finds only candidates; SiteTree answers exactly.
+// Finds the segments that may have a new site in their diametral circles, with one grid for each power of two of their
+// lengths. The segments found are only candidates; SiteTree gives the exact answer.
 #pragma once
 
 #include "trime/core/types.hpp"
@@ -14,20 +14,22 @@
 
 namespace trime::boundary {
 
-/// Adding a segment takes O(1), and finding the segments near a site O(levels + found). 50 to 100 bytes per segment.
+/// An index of segments. Adding a segment takes O(1) time, and finding the segments near a site O(levels + found).
+/// Memory: 50 to 100 bytes per segment.
 class SegmentWatch {
 public:
   explicit SegmentWatch(const geometry::Periods& periods) : periods_(periods) {}
 
-  /// Adds the segment `index` from the canonical place `a` to a + along. A segment that was divided may be added again;
-  /// its old entry only makes it a candidate more often.
+  /// Adds the segment with number `index`, which goes from `a` (a place in the container) to a + along. A segment that
+  /// was divided may be added again; its old entry only makes it a candidate more often.
   void add(geometry::Vec2 a, geometry::Vec2 along, LocalIndex index);
 
-  /// Appends all segments in whose closed diametral disc, or in an image of it, `site` lies, and others near it.
+  /// Appends all segments whose closed diametral circle, or a periodic image of it, contains `site`, and other segments
+  /// near it.
   void find(geometry::Vec2 site, std::vector<LocalIndex>& found) const;
 
 private:
-  /// A segment in the cells of a level. Cells are 2^(level + 1) wide, for lengths of at least 2^level.
+  /// A segment in the grid cells of a level. The cells are 2^(level + 1) wide; the segments are at least 2^level long.
   struct WatchedSegment {
     geometry::Vec2 middle;
     LocalIndex index;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes the places of a stretch of a loop among which its sites are chosen.
+// Makes the places of a stretch of a loop from which its sites are chosen.
 #pragma once
 
 #include "boundary/loop_metric.hpp"
@@ -13,18 +13,18 @@
 
 namespace trime::boundary {
 
-/// The largest distance of chords from the boundary: `share` of the local size asked for.
+/// The largest allowed distance from a chord to the boundary: `share` times the local size that the user asked for.
 struct FeatureTolerance {
   double share; ///< 0 if every corner is kept
-  /// Largest distance as a length, for sizes far larger than the shape.
+  /// Upper bound on this distance, as a length, for sizes far larger than the shape.
   double most = std::numeric_limits<double>::infinity();
 
   double at(double asked_size) const { return std::fmin(most, share * asked_size); }
 };
 
 /// @brief Returns both ends, the junctions between t0 and t1, and places in between that are at most a quarter of the
-/// local size apart. Junctions that lie within a small part of the tolerance of a chord between others are left out
-/// (Douglas and Peucker 1973). O(n log n) for n junctions, at most O(64 n).
+/// local size apart. A junction is left out if it lies within a small part of the tolerance of the chord between other
+/// junctions (Douglas and Peucker 1973). Cost: O(n log n) for n junctions, at most O(64 n).
 std::vector<SitePlace> places_between(const LoopMetric& metric, double t0, double t1, const geometry::Lattice& lattice,
                                       const FeatureTolerance& tolerance);
 

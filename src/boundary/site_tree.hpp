@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A k-d tree of boundary sites, which finds out whether a diametral disc contains other sites. Sites of a curve are too
-// unevenly spread for bins.
+// A k-d tree of boundary sites, which finds out whether a diametral circle contains other sites. Sites of a curve are
+// too unevenly spread for a grid of bins.
 #pragma once
 
 #include "trime/core/types.hpp"
@@ -11,7 +11,7 @@
 
 namespace trime::boundary {
 
-/// Immutable; O(n log n) to build, by all threads.
+/// A k-d tree of sites. Immutable. Takes O(n log n) time to build, by all threads.
 class SiteTree {
 public:
   struct Entry {
@@ -20,10 +20,10 @@ public:
   };
   explicit SiteTree(std::vector<Entry> items);
 
-  /// Returns a site strictly inside the diametral disc of a-b, or at the place of a or b, other than `index_a` at a and
-  /// `index_b` at b; -1 if no such site exists. Exact.
+  /// Returns a site that lies strictly inside the diametral circle of a-b, or at the place of a or b; the sites
+  /// `index_a` at a and `index_b` at b do not count. Returns -1 if there is no such site. Exact.
   LocalIndex find_in_disc(geometry::Vec2 a, geometry::Vec2 b, LocalIndex index_a, LocalIndex index_b) const;
-  /// Calls visit(item) for all items nearer to `center` than `radius`, in the order of the tree.
+  /// Calls visit(item) for all items whose distance from `center` is less than `radius`, in the order of the tree.
   template <class Visit>
   void for_each_within(geometry::Vec2 center, double radius, const Visit& visit) const {
     visit_within(center, radius, 0, items_.size(), visit);
@@ -57,8 +57,8 @@ private:
   }
 
   static constexpr std::size_t leaf_size = 8;
-  std::vector<Entry> items_;          // the item in the middle of a range splits it
-  std::vector<std::uint8_t> split_y_; // by item: whether it splits by y
+  std::vector<Entry> items_;          // the item in the middle of a range splits the range
+  std::vector<std::uint8_t> split_y_; // by item: whether it splits its range by y
 };
 
 } // namespace trime::boundary

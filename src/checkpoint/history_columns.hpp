@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The values of a checkpoint as columns: values with names, the history of a run, and the hash of all of it.
+// Converts the contents of a checkpoint to columns and back: named values and the history of the run. Computes the hash
+// of the contents.
 #pragma once
 
 #include "core/random.hpp"
@@ -15,7 +16,8 @@
 
 namespace trime::checkpoint {
 
-/// Hashes words in their order. Hashes of rows are added up, so they do not depend on which rank has which row.
+/// Hashes words in their order. Each row has its own hash; the hashes of all rows are added up, so the result does not
+/// depend on which rank has which row.
 class ContentHash {
 public:
   explicit ContentHash(std::uint64_t seed) : value_(mix_bits(seed)) {}
@@ -32,7 +34,8 @@ private:
   std::uint64_t value_;
 };
 
-/// Returns a column of a group. @throws FileError if no column has this name and type
+/// Returns a column of a group of the checkpoint.
+/// @throws FileError if there is no column with this name and type
 template <class T>
 const std::vector<T>& column(const io::Metadata& metadata, const char* group, const char* name) {
   if (const io::MetadataGroup* found = io::find_group(metadata, group))
@@ -42,7 +45,8 @@ const std::vector<T>& column(const io::Metadata& metadata, const char* group, co
   throw FileError(fmt::format("the checkpoint is damaged: expected the column {}/{}, found none", group, name));
 }
 
-/// Returns an attribute. @throws FileError if no attribute has this name and type
+/// Returns an attribute of the checkpoint.
+/// @throws FileError if there is no attribute with this name and type
 template <class T>
 const T& attribute(const io::Metadata& metadata, const char* name) {
   for (const io::Attribute& candidate : metadata.attributes)
@@ -51,8 +55,9 @@ const T& attribute(const io::Metadata& metadata, const char* name) {
   throw FileError(fmt::format("the checkpoint is damaged: expected the attribute {}, found none", name));
 }
 
-/// Returns the group `history`.
+/// Returns the history of a run as the group `history`.
 io::MetadataGroup columns_of(const std::vector<sweep::SweepRecord>& history);
+/// Returns the history of a run from the group `history`.
 /// @throws FileError if columns are missing or have different lengths
 std::vector<sweep::SweepRecord> history_of(const io::Metadata& metadata);
 /// Adds all members of all records to a hash.

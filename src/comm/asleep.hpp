@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Waits for ranks that work alone for long.
+// Lets ranks wait for a long time without using their core.
 #pragma once
 
 #include "trime/comm/communicator.hpp"
 
 namespace trime::comm {
 
-/// @brief Waits until all ranks have come here, as a barrier does, but sleeps meanwhile: MPI waits by asking again and
-/// again, on a core that the rank which works may need. Wakes up within about a millisecond. Collective.
+/// @brief Waits until all ranks have called this function, as MPI_Barrier does, but sleeps while waiting. MPI_Barrier
+/// polls all the time, and so takes up a core that the working rank may need. Returns within about a millisecond after
+/// the last rank has arrived. Collective.
 void barrier_asleep(const Communicator& comm);
 
 } // namespace trime::comm

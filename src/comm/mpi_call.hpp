@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Helpers for every MPI call of this module: they check its return code, and count what it sends.
+// Helpers for all MPI calls of this module: they check return codes, and count messages, bytes and waiting times.
 #pragma once
 
 #include "comm/native.hpp"
@@ -17,7 +17,8 @@
 namespace trime::comm {
 
 #ifndef TRIME_SIMULATE
-/// Stops the clock of a simulated cluster (scripts/cluster/simulated_work.hpp), and does nothing in real runs.
+/// In simulations of a cluster, the version of this class in scripts/cluster/simulated_work.hpp stops the simulated
+/// clock while it exists. In real runs the class does nothing.
 struct InMpi {
   InMpi() {}
   ~InMpi() {}
@@ -26,10 +27,10 @@ inline void begin_simulated_work() {}
 inline void end_simulated_work() {}
 #endif
 
-/// The kind of exchange that a message belongs to.
+/// The MPI tags of messages: one for each kind of exchange.
 enum Tag : int { tag_known = 101, tag_head = 102, tag_bundle = 103, tag_scan = 104 };
 
-/// Ends the job if an MPI call failed. No other code looks at return codes of MPI.
+/// Ends the job if an MPI call failed. Only this function looks at return codes of MPI.
 inline void check(int code) {
   if (code == MPI_SUCCESS)
     return;
@@ -40,16 +41,16 @@ inline void check(int code) {
   MPI_Abort(MPI_COMM_WORLD, static_cast<int>(ExitCode::internal_error));
 }
 
-/// [bytes] Largest piece of a message, because MPI counts in int. Longer messages travel in several pieces, in order.
+/// [bytes] Longer messages are sent in several pieces of this size, in order, because MPI counts in int.
 inline constexpr std::size_t piece_bytes = std::size_t{1} << 30;
 
-/// Returns the handle for a collective call, and counts the call.
+/// Counts a collective call, and returns the MPI communicator for it.
 inline MPI_Comm collective(const Communicator::Native& native) {
   native.counters.add(Counter::collectives);
   return native.comm;
 }
 
-/// Lives during a call of MPI, and adds the duration to the time in which this rank waits for others.
+/// Exists during an MPI call, and adds the duration of the call to the time in which this rank waits for others.
 class Wait {
 public:
   explicit Wait(const Communicator::Native& native) : counters_(native.counters), start_(wall_seconds()) {}
@@ -63,13 +64,13 @@ private:
   double start_; // [s]
 };
 
-/// Counts a message. Data that a rank sends to itself does not count.
+/// Counts a message to another rank. Messages of a rank to itself are not counted.
 inline void count_message(const Communicator::Native& native, int to, std::size_t bytes) {
   if (to != native.rank)
     native.counters.add_message(to, static_cast<std::int64_t>(bytes));
 }
 
-/// Returns a table with one value for each rank, and notes its memory.
+/// Returns a table with one value for each rank, and counts the memory of the table.
 template <class T>
 std::vector<T> table_of_ranks(const Communicator& comm) {
   std::vector<T> table(static_cast<std::size_t>(comm.size()));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gives the module io the MPI communicator itself, because HDF5 needs it.
+// Gives the module io access to the MPI communicator inside of a Communicator, because HDF5 needs it.
 #pragma once
 
 #include "trime/comm/communicator.hpp"
@@ -9,6 +9,7 @@
 namespace trime::comm {
 
 struct Communicator::Native {
+  /// Returns a duplicate of `comm`.
   /// @pre MPI is running, and `comm` is one of its communicators
   static Communicator duplicate_of(MPI_Comm comm);
 

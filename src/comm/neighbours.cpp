@@ -29,7 +29,7 @@ std::vector<Message> exchange_among(const Communicator& comm, std::span<const in
   }
   for (const Message& message : outgoing)
     TRIME_ASSERT(std::find(peers.begin(), peers.end(), message.peer) != peers.end(),
-                 "a message for rank {}, which is not one of the {} peers", message.peer, peers.size());
+                 "there is a message for rank {}, which is not one of the {} peers", message.peer, peers.size());
   comm.exchange_known(heads, incoming);
   for (Message& message : incoming) {
     if (const std::size_t left = open_head(message.data); left > 0)

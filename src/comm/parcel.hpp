@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The components of messages: heads, for messages with a size that only the sender knows (the receiver makes room for
-// the head alone), and several lists in one message.
+// Composes and takes apart messages. A message whose size only the sender knows begins with a head, which holds the
+// size and the first bytes; the receiver provides room for the head alone. A Parcel holds several lists in one message.
 #pragma once
 
 #include "trime/comm/communicator.hpp"
@@ -19,7 +19,7 @@ inline constexpr std::size_t head_bytes = 4096;
 using HeadSize = std::uint64_t;
 inline constexpr std::size_t most_in_head = head_bytes - sizeof(HeadSize);
 
-/// Returns the head of a message: its size, and as many of its bytes as fit.
+/// Returns the head of a message: its size, followed by as many of its bytes as fit.
 inline std::vector<std::byte> head_of(std::span<const std::byte> data) {
   const HeadSize size = data.size();
   std::vector<std::byte> head(sizeof size + std::min(data.size(), most_in_head));
@@ -28,7 +28,8 @@ inline std::vector<std::byte> head_of(std::span<const std::byte> data) {
   return head;
 }
 
-/// Removes the size from a received head, so that only bytes of the message are left. Returns how many bytes follow.
+/// Removes the size from a received head, so that only bytes of the message are left. Returns how many bytes of the
+/// message follow the head.
 inline std::size_t open_head(std::vector<std::byte>& head) {
   HeadSize size = 0;
   std::memcpy(&size, head.data(), sizeof size);
@@ -42,12 +43,12 @@ inline std::span<const std::byte> rest_of(std::span<const std::byte> data) {
   return data.subspan(std::min(data.size(), most_in_head));
 }
 
-/// @brief Holds lists of trivially copyable values, which are taken out in the order in which they were added. An empty
-/// parcel gives empty lists.
+/// @brief Holds several lists of trivially copyable values. Lists are taken out in the order in which they were added.
+/// An empty parcel gives empty lists.
 class Parcel {
 public:
   Parcel() = default;
-  /// Unpacks a message that has arrived.
+  /// Takes a received message, whose lists can then be taken out.
   explicit Parcel(std::vector<std::byte> bytes) : bytes_(std::move(bytes)) {}
 
   template <class T>
@@ -56,7 +57,8 @@ public:
     append(std::as_bytes(std::span(&count, 1)));
     append(std::as_bytes(std::span<const T>(list)));
   }
-  /// @pre T is the type that was added
+  /// Takes out the next list.
+  /// @pre T is the type with which the list was added
   template <class T>
   std::vector<T> take() {
     if (next_ == bytes_.size())
@@ -76,7 +78,7 @@ private:
   }
 
   std::vector<std::byte> bytes_;
-  std::size_t next_ = 0; // byte that is taken next
+  std::size_t next_ = 0; // position of the byte that is taken next
 };
 
 } // namespace trime::comm

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The lower envelope of a few thousand cones for very many look-ups. It is a quadtree whose leaves list the cones that
-// can be lowest somewhere in them.
+// Evaluates the lower envelope of a few thousand cones K |x - b| + c very often. A quadtree is built whose leaves list
+// the cones that can be lowest somewhere in them.
 #pragma once
 
 #include "cones/cone_tree.hpp"
@@ -12,21 +12,22 @@
 
 namespace trime::cones {
 
-/// @brief Gives exactly the values of the tree of cones, which it searches outside the cells and where a small cell has
-/// many cones. Immutable; queries are thread-safe.
+/// @brief Gives exactly the same values as the ConeTree. Points outside the quadtree, and small cells where many cones
+/// can be lowest, are searched in the ConeTree itself. Immutable; queries are thread-safe.
 class ConeCells {
 public:
-  /// Largest number of cones for which cells are made. Cells take about 1 KiB per cone, and more where cones lie close
-  /// together.
+  /// Largest number of cones for which the quadtree is built. The quadtree takes about 1 KiB per cone, and more where
+  /// cones lie close together.
   static constexpr std::size_t most_cones = std::size_t{1} << 15;
 
-  /// With at most this number of cones no cells are made.
+  /// With this number of cones or fewer, no quadtree is built.
   static constexpr std::size_t few_cones = 8;
 
-  /// About O(n log n), by all threads. @pre `tree` outlives this object and was made for the same slope
+  /// Builds the quadtree in about O(n log n) time for n cones, by all threads.
+  /// @pre `tree` outlives this object and was made for the same slope
   ConeCells(const ConeTree& tree, double slope);
 
-  /// Returns the least of `bound` and the values of all cones at p.
+  /// Returns the smallest of `bound` and the values of all cones at p.
   double value(geometry::Vec2 p, double bound) const {
     const double x = (p.x - grid_.origin.x) * inverse_side_, y = (p.y - grid_.origin.y) * inverse_side_;
     if (!(x >= 0 && y >= 0 && x < columns_ && y < rows_))
@@ -49,10 +50,10 @@ public:
   }
 
 private:
-  static constexpr int most_levels = 8; ///< largest number of levels below a block
+  static constexpr int most_levels = 8; ///< largest number of levels of the quadtree below a block
   static constexpr double finest = 1 << most_levels;
   using Quarters = std::array<CellNode, 4>;
-  /// A block with the cells below it, with separate indices.
+  /// A block of the quadtree with the cells below it. Indices in a part count from 0.
   struct Part {
     CellNode root;
     std::vector<Quarters> quarters;
@@ -64,12 +65,12 @@ private:
   const ConeTree& tree_;
   double slope_;
   CellGrid grid_{};
-  double inverse_side_ = 1; ///< inverse side of a block
+  double inverse_side_ = 1; ///< 1 / side of a block
   int columns_ = 0, rows_ = 0;
-  bool few_ = false;            ///< if true, every query examines all cones
-  std::vector<CellNode> roots_; ///< roots of the blocks, row by row
+  bool few_ = false;            ///< true if every query examines all cones
+  std::vector<CellNode> roots_; ///< root nodes of the blocks, row by row
   std::vector<Quarters> quarters_;
-  std::vector<double> numbers_; ///< numbers of the leaves: pairs of cones
+  std::vector<double> numbers_; ///< the pairs of cones of all leaves
 };
 
 } // namespace trime::cones

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The source of the three builds of cone_kernel.hpp. All is in an anonymous namespace and calls nothing outside, so
-// that no code for a newer processor can be linked into the rest of the program. One lane is one box, segment or cone.
+// The source that is compiled three times to give the kernels of cone_kernel.hpp. Everything is in an anonymous
+// namespace and calls no function outside, so that no code for a newer processor can be linked into the rest of the
+// program. One vector lane holds one box, segment or cone.
 #pragma once
 
 #include "cones/cone_kernel.hpp"
@@ -23,8 +24,8 @@ public:
   static void lowest(const BoxLevels& levels, const ConeLeaf* leaves, double slope, double x, double y, double share,
                      LowestCone& best) {
     const double inverse_slope = 1 / slope;
-    // Returns the squared distance within which a cone of this height is lower than the best; negative if it is nowhere
-    // lower.
+    // Returns the squared distance within which a cone of this height is lower than the best cone; negative if there is
+    // no such distance.
     const auto limit = [&](auto least) {
       const auto reach = (best.value * share - least) * inverse_slope;
       return reach > 0 ? reach * reach : reach * 0 - 1;
@@ -45,7 +46,7 @@ private:
     return v;
   }
 
-  /// Searches depth first, the nearest box first. The limit may fall while leaves are visited.
+  /// Searches depth first, the nearest box first. The limit may become smaller while leaves are visited.
   template <class Limit, class Visit>
   TRIME_INLINE static void search(const BoxLevels& levels, double x, double y, const Limit& limit, const Visit& visit) {
     if (levels.count == 0)
@@ -82,7 +83,7 @@ private:
       const int k = __builtin_ctz(near);
       const Entry child{entry.node * box_width + k, entry.level - 1, distances[k], node.number[k]};
       if (size > bottom && child.squared_distance > stack[size - 1].squared_distance) {
-        stack[size] = stack[size - 1]; // the nearest stays on top
+        stack[size] = stack[size - 1]; // the nearest box stays on top of the stack
         stack[size - 1] = child;
       } else {
         stack[size] = child;
@@ -106,7 +107,7 @@ private:
     }
   }
 
-  /// Computes square roots only for cones that are lower than the best one before this leaf.
+  /// Computes square roots only for cones that are lower than the best cone found in earlier leaves.
   TRIME_INLINE static void visit(const ConeLeaf& leaf, std::int64_t index, double slope, double x, double y,
                                  LowestCone& best) {
     const double inverse_slope = 1 / slope, bound = best.value;
@@ -129,7 +130,7 @@ private:
 } // namespace
 namespace {
 
-constexpr double nowhere = 1e300; // value of padding
+constexpr double nowhere = 1e300; // marks cones that a chosen cone covers
 constexpr double done = 1e301;
 
 template <int n>
@@ -157,7 +158,7 @@ public:
   }
 
   static void pass_on(const ConeList& from, int quarter, ConeList& to) {
-    const int first = (quarter & 1) + 3 * (quarter >> 1); // number of its first corner
+    const int first = (quarter & 1) + 3 * (quarter >> 1); // number of the first corner of the quarter
     const int points[5] = {first, first + 1, first + 3, first + 4, ConeList::first_quarter + quarter};
     constexpr int new_points[5] = {0, 2, 6, 8, ConeList::center};
     Winner winners[5];
@@ -272,18 +273,18 @@ private:
     for (int c = 0; c < 4; ++c)
       winner.at[c] = list.at(points[c])[cone];
   }
-  /// Returns whether the winner is lower at the corners by more than -margin.
+  /// Returns whether, at all corners, the value of the winner is at most the value of the other cone plus the margin.
   TRIME_INLINE static M is_below(const Winner& winner, const V (&at)[4], V margin) {
     return (winner.at[0] <= at[0] + margin) & (winner.at[1] <= at[1] + margin) & (winner.at[2] <= at[2] + margin) &
            (winner.at[3] <= at[3] + margin);
   }
-  /// Which of n cones from k on are hidden by winners, or beyond the end of the list.
+  /// Returns which of the n cones from number k on are covered by winners, or lie beyond the end of the list.
   TRIME_INLINE static M hidden_cones(const double* const* source, std::int64_t count, std::int64_t k,
                                      const Winner* winners, int winner_count) {
     const V at[4] = {load(source[0] + k), load(source[1] + k), load(source[2] + k), load(source[3] + k)};
     const V height = load(source[7] + k);
     M covered = lane_numbers() + k >= count;
-    M spared{}; // two equal cones must not cover each other, so only an earlier winner may cover a winner
+    M spared{}; // two equal cones must not cover each other, so a winner may be covered only by an earlier winner
     for (int w = 0; w < winner_count; ++w) {
       const V higher = winners[w].height - height, margin = lanes::select(higher < V{}, higher, V{});
       spared |= lane_numbers() + k == winners[w].cone;
@@ -292,7 +293,8 @@ private:
     return covered;
   }
 
-  /// Returns by how much another cone may be higher at the corners, so that inside it is too high by at most the slack.
+  /// Returns by how much the value of another cone may be higher at the corners, so that its error inside the cell is
+  /// at most the slack.
   TRIME_INLINE static V slack_of(const ConeChoice& choice, V x, V y) {
     const V zero{}, dx = larger(zero, larger(choice.min_x - x, x - choice.max_x));
     const V dy = larger(zero, larger(choice.min_y - y, y - choice.max_y)), squared = dx * dx + dy * dy;
@@ -306,7 +308,7 @@ private:
         return true;
     return false;
   }
-  /// Chooses a cone and marks the cones that it covers.
+  /// Chooses a cone and marks all cones that this cone covers.
   TRIME_INLINE static void take(const ConeList& list, ConeChoice& choice, int& count, std::int64_t cone,
                                 const double* slack, double* open) {
     choice.chosen[count++] = cone;

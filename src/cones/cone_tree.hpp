@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A hierarchy of boxes over a sequence of items whose neighbours lie close together, eight at a time. A second class
-// finds the lower envelope of cones of one slope, min over k of slope |x - apex_k| + height_k, by branch and bound.
-// This includes nearest neighbours: with additive weights, or plain ones (slope 1, heights 0).
+// A hierarchy of boxes over a sequence of items, eight at a time, where consecutive items lie close together. ConeTree
+// uses it to find the lower envelope of cones with one slope, min over k of slope |x - apex_k| + height_k, by branch
+// and bound. With slope 1 this finds the nearest apex: with additive weights, or (if all heights are 0) without.
 #pragma once
 
 #include "cones/cone_kernel.hpp"
@@ -17,13 +17,13 @@
 
 namespace trime::cones {
 
-/// @brief Each run of eight items is a leaf, eight leaves form a node, and so on. Each box stores the least number of
-/// its items. Immutable; searches are thread-safe.
+/// @brief A tree over items: each eight items form a leaf, eight leaves a node, eight nodes a node of the next level.
+/// Each box stores the smallest number of its items. Immutable; searches are thread-safe.
 class BoxHierarchy {
 public:
   static constexpr std::size_t width = box_width;
 
-  /// The data of an item in the tree.
+  /// The box and the number of an item, from which the tree is built.
   struct Item {
     geometry::Box box;
     double number;
@@ -32,11 +32,12 @@ public:
   BoxHierarchy() = default;
   BoxHierarchy(BoxHierarchy&&) = default;
   BoxHierarchy& operator=(BoxHierarchy&&) = default;
-  /// @param item_of(k) returns item k; it is thread-safe. O(n), by all threads.
+  /// Builds the tree. O(n), by all threads.
+  /// @param item_of item_of(k) returns item k; thread-safe
   template <class ItemOf>
   BoxHierarchy(std::size_t items, const ItemOf& item_of);
 
-  /// The levels; their pointers stay valid when the tree is moved.
+  /// Returns the levels of the tree. The pointers in the levels stay valid when the tree is moved.
   const BoxLevels& levels() const { return pointers_; }
   std::size_t memory_bytes() const {
     std::size_t nodes = 0;
@@ -45,7 +46,7 @@ public:
     return nodes * sizeof(BoxNode);
   }
 
-  /// Calls visit(k) for all items, in their order, except those in boxes with skip(box, number).
+  /// Calls visit(k) for all items in their order, but skips boxes for which skip(box, number) is true.
   template <class Skip, class Visit>
   void visit_unless(const Skip& skip, const Visit& visit) const {
     if (!levels_.empty())
@@ -65,8 +66,8 @@ private:
   void visit_unless(std::size_t level, std::size_t node, const Skip& skip, const Visit& visit) const;
 
   std::size_t items_ = 0;
-  std::vector<std::vector<BoxNode>> levels_; ///< from the nodes over leaves to the root
-  BoxLevels pointers_;                       ///< pointers to levels_
+  std::vector<std::vector<BoxNode>> levels_; ///< nodes of each level, from the one above the leaves up to the root
+  BoxLevels pointers_;                       ///< pointers to the nodes of levels_, for the kernels
 };
 
 inline void BoxHierarchy::include(Item& all, const Item& item) {
@@ -98,7 +99,7 @@ void BoxHierarchy::visit_unless(std::size_t level, std::size_t node, const Skip&
   for (std::size_t child = 0; child < width; ++child) {
     const Item item = child_of(levels_[level][node], child);
     if (!(item.box.min.x <= item.box.max.x))
-      return; // no items follow
+      return; // the remaining boxes are unused
     if (skip(item.box, item.number))
       continue;
     const std::size_t below = node * width + child;
@@ -117,23 +118,24 @@ struct Cone {
   double value(geometry::Vec2 p, double slope) const { return slope * geometry::length(p - apex) + height; }
 };
 
-/// Immutable; queries are thread-safe.
+/// Finds the lowest of many cones at a point. Immutable; queries are thread-safe.
 class ConeTree {
 public:
   ConeTree() = default;
-  /// Takes O(n) time and about 60 bytes per cone.
+  /// Builds the tree in O(n) time. Memory: about 60 bytes per cone.
   ConeTree(const std::vector<Cone>& cones, double slope);
 
-  /// @brief Returns the least of `bound` and the values of all cones at p. A low bound makes it faster. O(log n) for
-  /// points near a few cones.
-  /// @param slack share by which the answer may be too high; it saves time where many cones are almost equally low
+  /// @brief Returns the smallest of `bound` and the values of all cones at p. A low bound makes the search faster.
+  /// Takes O(log n) time for points near a few cones.
+  /// @param slack relative error by which the result may be too high; it saves time where many cones are almost equally
+  /// low
   double value(geometry::Vec2 p, double bound = std::numeric_limits<double>::infinity(), double slack = 0) const;
 
   /// Returns the index of the cone that is lowest at p, or -1 if no cone is below `bound` there.
   LocalIndex lowest(geometry::Vec2 p, double bound) const;
 
-  /// Calls visit(index) for the cones in the order of the tree. Leaves out the cones of nodes for which skip(box,
-  /// least) is true, where `box` contains their apexes and `least` is the least of their heights.
+  /// Calls visit(index) for the cones in the order of the tree, but skips nodes for which skip(box, least) is true.
+  /// `box` contains the apexes of the node's cones, and `least` is the smallest of their heights.
   template <class Skip, class Visit>
   void visit_unless(const Skip& skip, const Visit& visit) const {
     tree_.visit_unless(skip, [&](std::size_t k) { visit(static_cast<LocalIndex>(k)); });
@@ -142,7 +144,7 @@ public:
   /// Appends to `found` the indices of all cones whose value at p is at most `bound`, in the order of the tree.
   void collect(geometry::Vec2 p, double bound, std::vector<LocalIndex>& found) const;
 
-  /// The cones in the order of the tree.
+  /// Returns the cones in the order of the tree.
   std::span<const Cone> cones() const { return cones_; }
   std::size_t memory_bytes() const {
     return cones_.capacity() * sizeof(Cone) + leaves_.capacity() * sizeof(ConeLeaf) + tree_.memory_bytes();
@@ -151,9 +153,9 @@ public:
 private:
   LowestCone find(geometry::Vec2 p, double bound, double slack) const;
 
-  std::vector<Cone> cones_;      // along a Hilbert curve
+  std::vector<Cone> cones_;      // ordered along a Hilbert curve
   std::vector<ConeLeaf> leaves_; // all cones, eight at a time
-  BoxHierarchy tree_;            // boxes of apexes, with heights
+  BoxHierarchy tree_;            // boxes around apexes, with the smallest height of each box
   double slope_ = 1;
   SearchKernel kernel_ = search_kernel(simd_level());
 };

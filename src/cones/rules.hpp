@@ -6,10 +6,10 @@
 
 namespace trime::cones {
 
-/// Numbers for the cells of cones. Cells only make look-ups faster: these numbers change no result.
+/// Numbers for quadtrees over cones. The quadtrees only make look-ups faster: these numbers change no result.
 struct ConeRules {
-  /// [cones] Largest number in the list of a leaf. In the smallest cells with more cones, the tree is searched. Not
-  /// measured.
+  /// [cones] Largest number of cones in the list of a leaf. In the smallest cells with more cones, the tree of cones is
+  /// searched instead. Not measured.
   static constexpr std::size_t most_in_leaf = 24;
 };
 

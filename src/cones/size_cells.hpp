@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stores the cells of a quadtree of the size field, and builds the cells of blocks.
+// Stores the cells of a quadtree of the size field, and builds these cells.
 #pragma once
 
 #include "cones/cone_kernel.hpp"
@@ -17,16 +17,16 @@ namespace trime::cones {
 /// Values at the corners of a cell: lower left, lower right, upper left, upper right.
 using CornerValues = std::array<double, 4>;
 
-/// The input of a quadtree of the size field.
+/// The cones from which a quadtree of the size field is built, and its limits.
 struct SizeSource {
   const ConeTree& cones;
   double slope;      ///< slope of the cones
-  double cap;        ///< the field is the lower of the envelope and this
-  geometry::Box box; ///< where the field is defined
-  double least_side; ///< smaller cells are not split
+  double cap;        ///< upper bound of the field
+  geometry::Box box; ///< the rectangle in which the field is defined
+  double least_side; ///< cells with a smaller side are not split
 };
 
-/// A cell by its level, column and row. Squares of a level are half as wide as those of the level before.
+/// A cell, given by its level, column and row. The cells of a level are half as wide as those of the level above.
 struct CellPlace {
   int level;
   std::int64_t i, j;
@@ -34,16 +34,16 @@ struct CellPlace {
   CellPlace quarter(int k) const { return {level + 1, 2 * i + (k & 1), 2 * j + (k >> 1)}; }
 };
 
-/// A grid of squares over a rectangle that are halved from level to level. A corner has the same bits in cells of all
-/// levels.
+/// A grid of squares over a rectangle. The squares are halved from level to level. A point that is a corner of cells on
+/// several levels has the same bits in all of them.
 struct CellGrid {
   geometry::Vec2 origin;
-  double side; ///< side of the squares of level 0, the blocks
+  double side; ///< side of the squares of level 0, which are called blocks
 
   double side_at(int level) const {
     return level < 0 ? side * static_cast<double>(1 << -level) : side / static_cast<double>(1 << level);
   }
-  /// Returns the lower left corner.
+  /// Returns the lower left corner of a cell.
   geometry::Vec2 corner(const CellPlace& place) const {
     return origin + side_at(place.level) * geometry::Vec2{static_cast<double>(place.i), static_cast<double>(place.j)};
   }
@@ -52,18 +52,19 @@ struct CellGrid {
   }
 };
 
-/// A node of a tree is the index of its children, or the complement of a leaf.
+/// A node of the quadtree: the index of its children if it is split, or the bitwise complement of a leaf.
 using CellNode = std::int32_t;
-/// The children two levels down, row by row. A leaf one level down occurs in four places.
+/// The 16 cells two levels below a node, row by row. A leaf one level below the node occurs four times in this list.
 using CellChildren = std::array<CellNode, 16>;
 
-/// A cell that is not split. It is either bilinear between its corners, or the lower envelope of a few cones.
+/// A cell that is not split. The size in such a cell is either bilinear between its corners, or the lower envelope of a
+/// few cones.
 struct CellLeaf {
-  static constexpr int kinds = 16; ///< two kinds of bilinear cells; the others have 1, 2, ... pairs of cones
+  static constexpr int kinds = 16; ///< kinds 0 and 1 are bilinear cells; kind k > 1 has k - 1 pairs of cones
   static constexpr std::size_t most_numbers = (std::size_t{1} << 31) / kinds;
   static constexpr int most_cones = 2 * (kinds - 2);
 
-  std::size_t first; ///< index of its first number: numbers are corner values or pairs of cones
+  std::size_t first; ///< index of its first number, where numbers are values at corners or pairs of cones
   int kind;
 
   static CellLeaf of(CellNode node) {
@@ -74,7 +75,7 @@ struct CellLeaf {
   CellNode node() const { return ~static_cast<CellNode>(first * kinds + static_cast<std::size_t>(kind)); }
 
   bool is_bilinear() const { return kind < 2; }
-  /// Returns by how many levels a bilinear leaf is larger than a child of the node where it is found.
+  /// Returns by how many levels a bilinear leaf is larger than the children of the node in which it is found.
   int levels_up() const { return kind; }
   std::size_t pairs() const { return static_cast<std::size_t>(kind) - 1; }
 };
@@ -89,14 +90,14 @@ struct ConePair {
     std::memcpy(&v, from, sizeof v);
     return v;
   }
-  /// Returns the values of both cones, with the bits of Cone::value.
+  /// Returns the values of both cones, bit-identical to Cone::value.
   static Lanes values(const double* pair, Lanes x, Lanes y, double slope) {
     const Lanes dx = x - load(pair), dy = y - load(pair + 2);
     return slope * lanes::square_root(dx * dx + dy * dy) + load(pair + 4);
   }
 };
 
-/// Returns the value at p of the lowest of some pairs of cones, or `cap` if that is lower.
+/// Returns the value at p of the lowest cone in a list of pairs, or `cap` if that is lower.
 inline double lowest_cone(const double* pairs, std::size_t count, geometry::Vec2 p, double slope, double cap) {
   const ConePair::Lanes x{p.x, p.x}, y{p.y, p.y};
   ConePair::Lanes low{cap, cap};
@@ -105,45 +106,46 @@ inline double lowest_cone(const double* pairs, std::size_t count, geometry::Vec2
   return std::min(low[0], low[1]);
 }
 
-/// Returns the point of the cell where the pairs of cones are lowest.
+/// Returns the point of the cell at which the lower envelope of the pairs of cones is lowest.
 geometry::Vec2 lowest_point(const double* pairs, std::size_t count, const geometry::Box& cell, double slope);
 
-/// Some blocks with the cells below them, with separate indices.
+/// Some blocks of the quadtree with the cells below them. Indices in a part count from 0.
 struct CellPart {
-  std::vector<CellNode> roots; ///< roots of the blocks, row by row
+  std::vector<CellNode> roots; ///< root nodes of the blocks, row by row
   std::vector<CellChildren> children;
-  std::vector<double> numbers;                                         ///< numbers of the leaves
-  double least = std::numeric_limits<double>::infinity(), largest = 0; ///< bounds of the field
+  std::vector<double> numbers; ///< corner values or pairs of cones, for all leaves
+  double least = std::numeric_limits<double>::infinity(), largest = 0; ///< smallest and largest value of the field
 };
 
-/// Builds groups of blocks from the top down. Every cell passes to its quarters only the cones that can be lowest
-/// somewhere in them, so lists are short and the tree of cones is not searched again.
+/// Builds blocks of the quadtree from the top down. Each cell passes to its quarters only the cones that can be lowest
+/// somewhere in them, so the lists are short and the tree of cones is searched only once.
 class CellBuilder {
 public:
   struct Limits {
-    double tolerance; ///< largest error of a cell, as a share of the value
-    int most_levels;  ///< largest number of levels below a block; even
+    double tolerance; ///< largest relative error of a bilinear cell
+    int most_levels;  ///< largest number of levels below a block; must be even
     int most_cones;   ///< largest number of cones in a cell
-    double highest;   ///< largest value allowed in cells of cones
+    double highest;   ///< largest value that is allowed in cells with cones
   };
   CellBuilder(const SizeSource& source, const CellGrid& grid, const Limits& limits)
       : source_(source), grid_(grid), limits_(limits), kernel_(cone_kernel(simd_level())),
         levels_(static_cast<std::size_t>(limits.most_levels) + top + 1) {}
 
-  /// Returns the blocks of a cell. Leaves out blocks whose column is at least `columns`, or whose row is at least
-  /// `rows`. @pre the level of the cell is at most 0
+  /// Builds the blocks in a cell of the grid, except those whose column is at least `columns` or whose row is at least
+  /// `rows`.
+  /// @pre the level of the cell is at most 0
   CellPart build(const CellPlace& place, std::int64_t columns, std::int64_t rows);
 
 private:
-  static constexpr int top = 8; ///< no group is larger than a cell of level -8
-  /// The cell of a level that is being built.
+  static constexpr int top = 8; ///< the largest cell that build() accepts has level -8
+  /// The cell that is being built on one level.
   struct Level {
     ConeList cones;
-    std::vector<double> numbers; ///< numbers of the cones
+    std::vector<double> numbers; ///< memory for the arrays of `cones`
 
     void reserve(std::int64_t count);
   };
-  /// A node of a plain quadtree, before two levels are joined.
+  /// The four children of a node, before two levels are joined into one.
   using Quarters = std::array<CellNode, 4>;
 
   ConeList& cones_of(const CellPlace& place, std::int64_t room = 0);
@@ -167,7 +169,8 @@ private:
   std::vector<Quarters> quarters_;
   ConeChoice choice_;
   CellPart part_;
-  std::int64_t first_column_ = 0, first_row_ = 0, columns_ = 0, rows_ = 0; ///< range of blocks
+  std::int64_t first_column_ = 0, first_row_ = 0, columns_ = 0,
+               rows_ = 0; ///< number of the first block, and numbers of columns and rows of blocks
 };
 
 } // namespace trime::cones

@@ -31,7 +31,8 @@ std::size_t groups_of(std::size_t blocks, int level) {
 
 SizeQuadtree::SizeQuadtree(const comm::Communicator& comm, const Source& source)
     : box_(source.box), slope_(source.slope), cap_(source.cap) {
-  static_assert(most_levels % 2 == 0, "two levels are looked up at once");
+  static_assert(most_levels % 2 == 0,
+                "the number of levels must be even, because a look-up goes down two levels at once");
   static_assert(most_cones <= CellLeaf::most_cones && most_cones <= ConeChoice::most);
   grid_ = {box_.min, std::max(box_.width(), box_.height()) / blocks_along};
   inverse_side_ = 1 / grid_.side;

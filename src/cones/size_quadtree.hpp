@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The lower envelope of cones over a rectangle, as a quadtree for fast look-up. Cells with a few cones are exact; where
-// many cones form a smooth field, cells are bilinear.
+// Stores the lower envelope of cones over a rectangle in a quadtree for fast look-up. Cells with a few cones are exact;
+// where many cones form a smooth field, it is interpolated bilinearly.
 #pragma once
 
 #include "cones/size_cells.hpp"
@@ -10,28 +10,29 @@
 
 namespace trime::cones {
 
-/// Immutable after construction; queries are thread-safe.
+/// The size field as a quadtree. Immutable after construction; queries are thread-safe.
 class SizeQuadtree {
 public:
   using Source = SizeSource;
-  /// Largest relative error of a bilinear cell in its centre and at the middles of its edges and quarters.
+  /// Largest relative error of a bilinear cell, measured at its centre and at the middles of its edges and quarters.
   static constexpr double tolerance = 0.01;
   /// Number of blocks along the longer side of the box; each block is a separate quadtree.
   static constexpr int blocks_along = 64;
-  static constexpr int most_levels = 20; ///< below a block
+  static constexpr int most_levels = 20; ///< largest number of levels below a block
   static constexpr int most_cones = 12;  ///< a cell with more cones is split
 
-  /// @brief Distributes groups of blocks over the ranks and threads; every rank gets the whole tree. Collective.
+  /// @brief Builds the quadtree. Groups of blocks are distributed over the ranks and threads; every rank gets the whole
+  /// quadtree. Collective.
   SizeQuadtree(const comm::Communicator& comm, const Source& source);
 
-  /// Returns the value at p, or at the nearest point of the box.
+  /// Returns the value at p; for p outside of the box, the value at the nearest point of the box.
   double value(geometry::Vec2 p) const;
   double least() const { return least_; }
   double largest() const { return largest_; }
   std::size_t memory_bytes() const;
 
-  /// @brief Calls visit(cell, values) for every cell that is not split. Also calls it for the lowest point of each cell
-  /// of cones, as a cell without extent.
+  /// @brief Calls visit(cell, values) for every cell that is not split, with the values at its corners. For a cell with
+  /// cones, it also calls visit for the lowest point, as a cell without extent.
   template <class Visit>
   void for_each_leaf(const Visit& visit) const {
     for (std::size_t k = 0; k < roots_.size(); ++k)
@@ -39,7 +40,7 @@ public:
   }
 
 private:
-  /// All blocks in a cell of this level are built together.
+  /// Level of the cells that form a group; all blocks in such a cell are built together.
   static constexpr int group_level = -2;
   void assemble(const comm::Communicator& comm, std::vector<CellPart> mine);
   std::vector<CellPart> gather_parts(const comm::Communicator& comm, std::vector<CellPart> mine) const;
@@ -54,12 +55,12 @@ private:
 
   geometry::Box box_;
   CellGrid grid_;
-  double inverse_side_ = 1; ///< inverse side of a block
+  double inverse_side_ = 1; ///< 1 / side of a block
   double slope_, cap_;
   std::size_t nx_ = 1, ny_ = 1, groups_x_ = 1, groups_y_ = 1;
-  std::vector<CellNode> roots_; ///< roots of the blocks, row by row
+  std::vector<CellNode> roots_; ///< root nodes of the blocks, row by row
   std::vector<CellChildren> children_;
-  std::vector<double> numbers_; ///< numbers of the leaves
+  std::vector<double> numbers_; ///< corner values or pairs of cones, for all leaves
   double least_ = std::numeric_limits<double>::infinity(), largest_ = 0;
 };
 
@@ -68,7 +69,7 @@ void SizeQuadtree::visit_leaves(CellNode node, const CellPlace& place, const Vis
   if (node >= 0) {
     const CellChildren& children = children_[node];
     for (int k = 0; k < 4; ++k) {
-      const int first = 2 * (k & 1) + 8 * (k >> 1); // first child in this quarter
+      const int first = 2 * (k & 1) + 8 * (k >> 1); // index of the first child in this quarter
       const CellPlace quarter{place.level + 1, 2 * place.i + (k & 1), 2 * place.j + (k >> 1)};
       if (children[first] < 0 && children[first] == children[first + 1])
         visit_leaves(children[first], quarter, visit);

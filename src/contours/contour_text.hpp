@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads the text of contours and point files: lines, numbers, and messages for users whose text is something else.
-// Each format has a reader in a separate source; the reader of ESRI shapefiles uses libshp.
+// Reads lines and numbers from the text of contours and point files, with messages for users whose text has another
+// format. Each format has a reader in a separate source file; the reader of ESRI shapefiles uses libshp.
 #pragma once
 
 #include "trime/contours/contour.hpp"
@@ -14,20 +14,19 @@
 
 namespace trime::contours {
 
-/// Returns the text without blanks at both ends; a carriage return counts as a blank.
+/// Returns the text without blanks and carriage returns at both ends.
 std::string_view trimmed(std::string_view text);
 
-/// @brief Refuses text in UTF-16 and binary data. @throws GeometryError
+/// @brief Throws for text in UTF-16 and for binary data.
+/// @throws GeometryError
 void check_encoding(std::string_view text, const std::string& source);
 
-/// @brief Removes the first line from `text` and returns it. A line ends at a line feed, at a carriage return, or at
-/// both.
-///
-/// Carriage returns right before a line feed belong to it; any other one ends a line by itself.
+/// @brief Removes the first line from `text` and returns it. A line ends with LF, CR LF or CR. Of several CR right
+/// before a LF, all belong to the line end.
 std::string_view take_line(std::string_view& text);
 
 /// Calls visit(content, number, separates) for every line: its content without comment, its number from 1, and whether
-/// it separates rings. Blank lines and lines that start with '>' (GMT) do, and have no content.
+/// the line separates rings. Blank lines and lines that start with '>' (GMT) separate rings, and have no content.
 template <class Visit>
 void for_each_line(std::string_view text, const Visit& visit) {
   if (text.starts_with("\xEF\xBB\xBF")) // byte order mark of some editors
@@ -46,13 +45,13 @@ class VertexReader {
 public:
   explicit VertexReader(const std::string& source) : source_(source) {}
 
-  /// @brief Returns the vertex of a line with content, or nothing if the line holds column names such as 'x y' before
-  /// all vertices.
+  /// @brief Returns the vertex on a line with content. Returns nothing if the line holds column names such as 'x y' and
+  /// comes before all vertices.
   ///
-  /// Exponents may be written with e or d (Fortran). A number too small for double precision is 0.
-  /// @throws GeometryError `source:line: ...` with what to do about it
+  /// Exponents may be written with e or d (Fortran). A number that is too small for double precision counts as 0.
+  /// @throws GeometryError `source:line: ...` that says how to correct the line
   std::optional<geometry::Vec2> read(std::string_view line, int number);
-  /// Warnings for the user about a line of column names.
+  /// Returns warnings for the user about a skipped line of column names.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
 private:
@@ -60,20 +59,21 @@ private:
 
   const std::string& source_;
   std::vector<std::string> warnings_;
-  bool first_ = true; // no line with content so far
+  bool first_ = true; // true until the first line with content
 };
 
 /// @brief Splits a text of numbers into lines and words. Comments begin with '#'; lines without words are skipped.
 class WordLines {
 public:
-  /// @param separators separate words, in addition to blanks and tabs
+  /// @param separators characters that separate words, in addition to blanks and tabs
   WordLines(std::string_view text, const std::string& source, std::string_view separators);
 
-  /// Goes to the next line with words. Returns false if there is no such line.
+  /// Moves on to the next line with words. Returns false if there is no such line.
   bool next();
   int number() const { return number_; } ///< number of the line, from 1
   const std::vector<std::string_view>& words() const { return words_; }
-  /// @brief Returns word k as a number. @throws GeometryError that says that `what` was expected
+  /// @brief Returns word k as a number.
+  /// @throws GeometryError that names `what` as the expected value
   double number_at(std::size_t k, const char* what) const;
   /// Returns word k as an integer that fits into an int.
   int integer_at(std::size_t k, const char* what) const;
@@ -87,16 +87,18 @@ private:
   int number_ = 0;
 };
 
-/// @brief Refuses coordinates that are not finite or larger than ContourRules::largest_coordinate.
+/// @brief Throws for coordinates that are not finite or larger than ContourRules::largest_coordinate.
 /// @throws GeometryError `source:line: ...`
 void check_coordinates(geometry::Vec2 p, const std::string& source, int line, const std::string& feature = {});
 
-/// @brief Returns the rings of the polygons of a shapefile, and of lines that form rings. The line number of a vertex
-/// is the number of its record, from 1. NAME.shx must be next to it; NAME.prj names the reference system.
-/// @param hint ends the message if the file cannot be opened
-/// @param attribute of NAME.dbf that names the boundary, see parse_geojson; may be empty. Texts are UTF-8 or Latin-1
+/// @brief Returns the rings of the polygons of a shapefile, and of lines that form rings. In place of a line number,
+/// each vertex gets the number of its record, from 1. NAME.shx must be in the same directory; NAME.prj names the
+/// reference system.
+/// @param hint text that ends the error message if the file cannot be opened
+/// @param attribute the attribute in NAME.dbf that names the boundary, see parse_geojson; may be empty. Texts in the
+/// .dbf file are UTF-8 or Latin-1
 /// @throws FileError if a file is missing or damaged; ConfigError if there is no such attribute; GeometryError
-/// `source:record: ...` for open lines
+/// `source:record: ...` for lines that are not closed
 /// @note Serial.
 Contour read_shapefile(const std::string& path, const std::string& hint, const std::string& attribute);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes rings from the features of maps: from polygons, and from lines that are closed or together form rings. An
-// attribute of the features gives markers and names.
+// Makes rings from the features of a map: from polygons, and from lines that are closed or form rings together. An
+// attribute of the features gives the markers of the rings and their names.
 #pragma once
 
 #include "contours/segment_rings.hpp"
@@ -14,36 +14,37 @@
 
 namespace trime::contours {
 
-/// Collects the rings of the features of a map, regardless of the file format.
+/// Collects the rings of the features of a map, for all file formats.
 class FeatureRings {
 public:
   enum class Kind { polygon, line };
 
-  /// @param contour names its source; receives rings, names and warnings, and outlives this object
+  /// @param contour its member `source` must be set; receives rings, names and warnings, and must outlive this object
   /// @param attribute the attribute that names the boundary; may be empty
   FeatureRings(Contour& contour, std::string attribute);
 
-  /// @brief Adds a ring, or a line that may be open, to the current feature. @pre it has a vertex
+  /// @brief Adds a ring, or a line that may be open, to the current feature.
+  /// @pre the line has a vertex
   void add(Kind kind, std::vector<FilePoint> vertices);
-  /// Records a geometry that bounds nothing, for a warning with its type.
+  /// Notes a geometry without area or length, such as a point, for a warning with its type.
   void skip(const std::string& type, int line);
-  /// Records the name of an attribute that some feature has, whatever its value.
+  /// Notes the name of an attribute that some feature has.
   void has_attribute(const std::string& name);
-  /// @brief Ends the current feature.
+  /// @brief Ends the current feature, whose rings and lines get the marker of the value.
   /// @param value the value of the attribute, if the feature has it
-  /// @param label for messages, behind the line, such as " (feature 3)"
+  /// @param label text for messages after the line number, such as " (feature 3)"
   /// @throws GeometryError for coordinates that are too large, or a ring with fewer than three distinct vertices
   void end_feature(const std::optional<std::string>& value = {}, const std::string& label = {});
-  /// @brief Joins open lines and gives the rings their markers.
-  /// @param expected what the file should contain, for the message if it has no vertex
-  /// @throws GeometryError also if lines stay open; ConfigError if no feature has the attribute
+  /// @brief Joins open lines to rings, and gives all rings their markers.
+  /// @param expected what the file should contain; used in the message if it contains no vertex
+  /// @throws GeometryError if lines remain open; ConfigError if no feature has the attribute
   void finish(const char* expected);
 
 private:
   struct Chain {
     Kind kind;
     std::vector<FilePoint> vertices;
-    std::string label = {}; // label of an open line, for messages
+    std::string label = {}; // text for messages about an open line
   };
 
   int number_of(const std::optional<std::string>& value);
@@ -58,8 +59,8 @@ private:
   std::vector<Chain> of_feature_;
   std::vector<Chain> open_lines_;
   std::vector<int> open_markers_;      // marker of each open line
-  std::map<std::string, int> numbers_; // numbers of the values of the attribute, from 1
-  std::vector<std::string> values_;    // values by number - 1
+  std::map<std::string, int> numbers_; // number of each value of the attribute, from 1
+  std::vector<std::string> values_;    // the value with number k + 1 at index k
   std::set<std::string> attributes_;
   int skipped_ = 0, skipped_line_ = 0;
   std::string skipped_type_;

@@ -6,12 +6,13 @@ namespace trime::contours {
 
 /// Limits and sizes for contours.
 struct ContourRules {
-  /// [1] Size of a normalised contour over the shorter side of the container; it leaves a margin on all sides.
+  /// [1] Size of a normalised contour divided by the shorter side of the container. This size leaves a margin on all
+  /// sides.
   static constexpr double normalized_share = 0.8;
   /// [file units] Larger coordinates are refused in contours and containers, so that squares of coordinates stay
   /// finite. Not measured.
   static constexpr double largest_coordinate = 1e30;
-  /// [file units] Smallest width or height of a contour that is normalised, so that its inverse stays finite. Not
+  /// [file units] A contour that is normalised must be wider or higher than this, so that the scale stays finite. Not
   /// measured.
   static constexpr double smallest_normalized = 1e-30;
 };

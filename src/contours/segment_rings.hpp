@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes rings: of vertices in reading order, whatever format they come from, and of numbered vertices and the segments
-// between them, as files of meshing programs have them.
+// Makes rings from vertices in reading order, and from numbered vertices and segments between them, as files of meshing
+// programs have them.
 #pragma once
 
 #include "trime/contours/contour.hpp"
@@ -11,21 +11,24 @@
 
 namespace trime::contours {
 
-/// Makes the rings of a contour. Removes repeated vertices and refuses rings that are too short.
+/// Makes the rings of a contour vertex by vertex. Removes repeated vertices and refuses rings with too few vertices.
 class RingBuilder {
 public:
-  /// @param contour names its source; receives rings and warnings, and outlives this object
+  /// @param contour its member `source` must be set; receives rings and warnings, and must outlive this object
   explicit RingBuilder(Contour& contour) : contour_(contour) {}
 
-  /// Sets what later messages say behind the line, such as " (feature 3)".
+  /// Sets a text that later messages contain after the line number, such as " (feature 3)".
   void set_feature(const std::string& feature) { feature_ = feature; }
-  /// @param marker of the edge from this vertex to the next
+  /// Adds a vertex to the current ring.
+  /// @param marker marker of the edge from this vertex to the next
   /// @throws GeometryError for coordinates that are too large
   void add(geometry::Vec2 p, int line, int marker = 0);
+  /// Ends the current ring.
   /// @throws GeometryError for a ring with fewer than three distinct vertices
   void end_ring();
-  /// @param expected what the text should contain, for the message if it has no vertex
-  /// @throws GeometryError
+  /// Ends the text.
+  /// @param expected what the text should contain; used in the message if it contains no vertex
+  /// @throws GeometryError if there is no vertex, or if the last ring has fewer than three distinct vertices
   void finish(const char* expected);
 
 private:
@@ -40,26 +43,27 @@ private:
 
 struct FileVertex {
   geometry::Vec2 position;
-  int line;   ///< line in the file
-  int number; ///< number in the file
+  int line;   ///< line of the vertex in the file
+  int number; ///< number of the vertex in the file
 };
-/// A segment between two vertices, by their indices in the list.
+/// A segment between two vertices, given by their indices in the list of vertices.
 struct FileSegment {
   int from, to;
   int marker;
   int line;
 };
 
-/// A vertex of a ring, and the marker of the segment that leaves it.
+/// A vertex of a ring, with the marker of the segment that begins there.
 struct RingVertex {
   geometry::Vec2 position;
   int line;
   int marker;
 };
 
-/// @brief Joins segments into rings. No ring visits a vertex twice; rings that meet in a vertex stay separate. Vertices
-/// at one place are one vertex. Segments without length and repeated segments are left out with a warning. O(n log n)
-/// @throws GeometryError `source:line: ...` where an odd number of segments meets
+/// @brief Joins segments into rings. No ring visits a vertex twice; rings that meet at a vertex stay separate. Vertices
+/// with the same coordinates count as one vertex. Segments without length and repeated segments are left out with a
+/// warning. Cost: O(n log n).
+/// @throws GeometryError `source:line: ...` for a vertex where an odd number of segments meets
 std::vector<std::vector<RingVertex>> rings_of_segments(const std::vector<FileVertex>& vertices,
                                                        std::vector<FileSegment> segments, const std::string& source,
                                                        std::vector<std::string>& warnings);

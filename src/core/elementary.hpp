@@ -1,6 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Elementary functions with the same bits on every machine: sizes and shapes given as formulas decide meshes, and the C
-// library's functions differ in the last bit between its versions and processors.
+// SPDX-License-Identifier: BSD-3-Clause Elementary functions with the same bits on every machine. These functions are
+// needed because sizes and shapes given as formulas determine meshes, and the functions of C libraries differ in the
+// last bit between versions and processors.
 #pragma once
 
 /// The functions use only + - * /, sqrt, comparisons and the bits of a double, so their results do not depend on
@@ -9,7 +9,7 @@
 /// flags are unspecified, and errno is not set. @pre the rounding mode is to nearest
 namespace trime::elementary {
 
-/// @brief Reduces any finite argument with as many bits of 2/pi as it needs.
+/// @brief Trigonometric functions. Any finite argument is reduced with as many bits of 2/pi as it needs.
 double sin(double x);
 double cos(double x);
 double tan(double x);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parts that the sources of the elementary functions share: numbers of twice the precision of double, as sums of two
-// doubles, and exp and log with more bits than a double has.
+// Tools that the sources of the elementary functions share: numbers of twice the precision of double, stored as sums of
+// two doubles, and exp and log with more bits than a double has.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace trime {
 
-/// The number hi + lo, where hi is the sum rounded to nearest: about 106 bits.
+/// The number hi + lo, where hi is this number rounded to nearest. Such a number has about 106 bits.
 struct DoubleDouble {
   double hi = 0, lo = 0;
 };
@@ -33,8 +33,8 @@ constexpr DoubleDouble halves(double a) {
   return {high, a - high};
 }
 
-/// @brief Returns a b exactly, if no part of it overflows or underflows. (Dekker 1971) It uses no fused multiply-add:
-/// not every processor has one, and a function that replaces it is slow.
+/// @brief Returns a b exactly, if no partial product overflows or underflows (Dekker 1971). No fused multiply-add is
+/// used, because some processors lack it and emulating it is slow.
 constexpr DoubleDouble two_product(double a, double b) {
   const double product = a * b;
   const DoubleDouble s = halves(a), t = halves(b);
@@ -65,7 +65,8 @@ constexpr DoubleDouble operator*(DoubleDouble a, double b) {
   return fast_two_sum(p.hi, p.lo + a.lo * b);
 }
 
-/// @brief Improves the quotient in double by one step of long division; the relative error is about 2^-102.
+/// @brief Divides in double precision and improves the quotient by one step of long division; the relative error is
+/// about 2^-102.
 constexpr DoubleDouble operator/(DoubleDouble a, DoubleDouble b) {
   const double q = a.hi / b.hi;
   const DoubleDouble p = two_product(q, b.hi);
@@ -94,7 +95,8 @@ constexpr double power_of_two(int n) {
   return std::bit_cast<double>(static_cast<std::uint64_t>(n + 1023) << 52);
 }
 
-/// @brief Returns the nearest integer, halves to even. @pre |x| < 2^51
+/// @brief Returns the nearest integer; halves are rounded to even.
+/// @pre |x| < 2^51
 inline double nearest(double x) {
   constexpr double shift = 0x1.8p+52;
   return (x + shift) - shift;
@@ -109,7 +111,8 @@ constexpr double polynomial(const std::array<double, count>& coefficient, double
   return sum;
 }
 
-/// @brief Returns s as a double. It is rounded only once, also if the result is denormal. @pre 0.5 <= s.value < 4
+/// @brief Returns s as a double, rounded only once even if the result is denormal.
+/// @pre 0.5 <= s.value < 4
 double rounded(const Scaled& s);
 
 /// @brief Returns exp(a) with a relative error of about 2^-60 and a `value` in [0.99, 2.01]. @pre |a| < 1200

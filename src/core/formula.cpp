@@ -156,7 +156,7 @@ std::string complaint(const mu::Parser& parser, const mu::ParserError& error) {
   switch (error.GetCode()) {
   case mu::ecUNASSIGNABLE_TOKEN: {
     if (!token.empty() && token.front() == '^') // as for the operators of muParser
-      return "operator '^' cannot stand here";
+      return "the operator '^' is not allowed here";
     if (!token.empty() && std::isalpha(static_cast<unsigned char>(token.front())) == 0)
       return fmt::format("'{}' cannot stand here", token);
     const std::vector<std::string> names = known_names(parser);
@@ -165,13 +165,13 @@ std::string complaint(const mu::Parser& parser, const mu::ParserError& error) {
                        near.empty() ? "; known are x, y, pi, e and functions such as sqrt, sin, min, max" : near);
   }
   case mu::ecUNEXPECTED_EOF:
-    return "it ends too early";
+    return "the expression ends too early";
   case mu::ecMISSING_PARENS:
     return "a parenthesis is not closed";
   case mu::ecUNEXPECTED_PARENS:
     return fmt::format("'{}' cannot stand here", token);
   case mu::ecUNEXPECTED_OPERATOR:
-    return fmt::format("operator '{}' cannot stand here", token);
+    return fmt::format("the operator '{}' is not allowed here", token);
   case mu::ecUNEXPECTED_VAL:
   case mu::ecUNEXPECTED_VAR:
   case mu::ecUNEXPECTED_FUN:
@@ -199,7 +199,7 @@ void reject_assignment(const std::string& where, const std::string& text) {
     if (k + 1 < text.size() && text[k + 1] == '=')
       ++k;
     else if (k == 0 || (text[k - 1] != '<' && text[k - 1] != '>' && text[k - 1] != '!'))
-      reject(where, text, k + 1, "nothing can be assigned; write == to compare");
+      reject(where, text, k + 1, "an expression cannot assign values; write == to compare");
   }
 }
 
@@ -233,7 +233,7 @@ Formula::Formula(const std::string& text, const std::string& where) : store_(std
         fmt::format("{}: expected an expression of at most {} characters, found {}", where, longest_text, text.size()));
   for (std::size_t k = 0; k < text.size(); ++k)
     if (std::iscntrl(static_cast<unsigned char>(text[k])) != 0 && text[k] != '\t')
-      reject(where, text, k + 1, "control characters cannot stand in an expression");
+      reject(where, text, k + 1, "control characters are not allowed in an expression");
   reject_assignment(where, text);
   const std::size_t count =
       std::clamp<std::size_t>(std::max<std::size_t>(thread_count(), std::thread::hardware_concurrency()), 1, 256);
@@ -243,7 +243,7 @@ Formula::Formula(const std::string& text, const std::string& where) : store_(std
     try {
       slot.parser.Eval(); // translates the text once
       if (slot.parser.GetNumResults() != 1)
-        reject(where, text, text.find(',') + 1, "expected one value, found several, divided by ','");
+        reject(where, text, text.find(',') + 1, "expected one value, found several values separated by ','");
     } catch (const mu::ParserError& error) {
       const auto position = static_cast<std::ptrdiff_t>(error.GetPos());
       reject(where, text, position < 0 ? 1 : static_cast<std::size_t>(position) + 1, complaint(slot.parser, error));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Computes with several doubles at once, by the vector extension of g++ and clang++. Every lane gets the bits of scalar
-// code: multiplications and additions are not fused, and a sum runs over one lane only. Loads are explicit, because
-// gather instructions are slow on common processors. Everything is inlined by force, so that no code for one processor
-// is used on another.
+// Computes with several doubles at once, by the vector extension of g++ and clang++. Every lane gets the same bits as
+// scalar code: multiplications and additions are not fused, and sums do not mix lanes. Elements are loaded one by one,
+// because gather instructions are slow on common processors. All functions are inlined by force, so that code for one
+// processor is never executed on another.
 #pragma once
 
 #include <cstdint>
@@ -21,10 +21,10 @@ namespace trime::lanes {
 template <int n>
 struct Types {
   using Doubles [[gnu::vector_size(8 * n)]] = double;
-  using Mask [[gnu::vector_size(8 * n)]] = std::int64_t; // -1 where true
+  using Mask [[gnu::vector_size(8 * n)]] = std::int64_t; // -1 in lanes where a comparison is true
 };
 
-/// The type of a comparison of V.
+/// The type of the result when two vectors of type V are compared.
 template <class V>
 struct MaskOf {
   using Type = decltype(V{} < V{});
@@ -32,7 +32,7 @@ struct MaskOf {
 template <class V>
 using Mask = typename MaskOf<V>::Type;
 
-// These overloads take plain numbers, so that scalar code shares its formulas with the vectors.
+// Overloads for plain numbers, so that scalar code and vector code can share formulas.
 TRIME_INLINE double select(bool mask, double a, double b) {
   return mask ? a : b;
 }
@@ -66,7 +66,7 @@ TRIME_INLINE V square_root(V v) {
   return r;
 }
 
-/// Returns the larger value of each lane, or b where one of them is NaN.
+/// Returns the larger value of each lane; b if one of the two is NaN.
 template <class V>
 TRIME_INLINE V larger(V a, V b) {
 #ifdef __SSE2__
@@ -84,7 +84,7 @@ TRIME_INLINE V larger(V a, V b) {
   return a > b ? a : b;
 }
 
-/// Returns the smaller value of each lane, or b where one of them is NaN.
+/// Returns the smaller value of each lane; b if one of the two is NaN.
 template <class V>
 TRIME_INLINE V smaller(V a, V b) {
 #ifdef __SSE2__
@@ -94,7 +94,7 @@ TRIME_INLINE V smaller(V a, V b) {
   return a < b ? a : b;
 }
 
-/// Returns one bit for each lane.
+/// Converts a mask to an integer with one bit for each lane.
 template <class M>
 TRIME_INLINE unsigned bits(M mask) {
   constexpr int n = sizeof(M) / 8;
@@ -116,7 +116,7 @@ TRIME_INLINE unsigned bits(M mask) {
   return result;
 }
 
-/// The first and the second numbers of n pairs.
+/// Vectors of the first and of the second numbers of n pairs.
 template <class V>
 struct Pairs {
   V x, y;
@@ -149,13 +149,15 @@ TRIME_INLINE Pairs<V> load_pairs(const double* const (&from)[sizeof(V) / 8]) {
   }
 }
 
-/// Returns the nearest integers, ties to even, as round_to_integer does. @pre |v| <= 2^51
+/// Returns the nearest integers; halves are rounded to even, as in round_to_integer.
+/// @pre |v| <= 2^51
 template <class V>
 TRIME_INLINE V nearest(V v) {
   return (v + 0x1.8p52) - 0x1.8p52;
 }
 
-/// Rounds to integer multiples of 2^-32, as FixedSum rounds its terms. @pre |v| < 2^18
+/// Returns the nearest integer multiples of 2^-32, as FixedSum computes them.
+/// @pre |v| < 2^18
 template <class V>
 TRIME_INLINE Mask<V> fixed_point(V v) {
   constexpr std::int64_t origin = 0x4338000000000000; // bits of 1.5 * 2^52

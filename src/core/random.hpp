@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Counter-based random numbers: a pure function of (seed, purpose, key, slot), so any rank can make any of them.
+// Counter-based random numbers: each number is a pure function of (seed, purpose, key, slot), so any rank can compute
+// any number.
 #pragma once
 
 #include <cstdint>
 
 namespace trime {
 
-/// The purpose of a random number, so that two purposes do not get the same numbers.
+/// The purpose for which a random number is used. Different purposes get different numbers.
 enum class RandomPurpose : std::uint64_t { site_position = 1, deletion = 2, test = 99 };
 
-/// Finaliser of splitmix64 (Steele, Lea, Flood 2014): a bijection that spreads every input bit.
+/// The finaliser of splitmix64 (Steele, Lea, Flood 2014), a bijection in which every input bit changes many output
+/// bits.
 constexpr std::uint64_t mix_bits(std::uint64_t z) {
   z += 0x9e3779b97f4a7c15ULL;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;

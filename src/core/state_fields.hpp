@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Keeps the state of a run as named numbers for a checkpoint. A class lists its members once, for saving and for
+// Stores the state of a run as named numbers in a checkpoint. A class lists its members once, for both saving and
 // restoring.
 #pragma once
 
@@ -17,7 +17,7 @@ namespace trime {
 /// Integers and floating-point numbers by name.
 using StateNumbers = std::map<std::string, std::variant<std::int64_t, double>>;
 
-/// @brief Copies members into the numbers of a state, or back.
+/// @brief Copies members of classes into the named numbers of a state, or back.
 class StateFields {
 public:
   /// Copies members into `numbers`, which must outlive this object.
@@ -28,7 +28,7 @@ public:
   bool restores() const { return from_ != nullptr; }
 
   /// @brief Saves or restores one member: an integer, a bool, an enum, a double or a FixedSum.
-  /// @throws FileError if it restores, and `numbers` has no number of this name and type
+  /// @throws FileError if, while restoring, `numbers` has no number with this name and type
   template <class T>
   void field(const std::string& name, T& member) {
     if constexpr (std::is_same_v<T, FixedSum>) {

@@ -1,7 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// The only way in which this program uses threads: a loop over items in which each item writes to its own place, and a
-// list that several threads make together in the order of a single thread. The body must not call MPI. It should not
-// throw; if it does (no memory), one exception leaves the loop.
+// SPDX-License-Identifier: BSD-3-Clause The only functions of this program that use threads. One is a loop over items
+// in which each item writes to separate memory. Another makes a list with several threads, in the order of a single
+// thread. The body of a loop must not call MPI. The body should not throw; if it does (for lack of memory), one
+// exception leaves the loop.
 #pragma once
 
 #include <omp.h>
@@ -17,7 +17,7 @@
 
 namespace trime {
 
-/// Returns how many threads a loop will use.
+/// Returns how many threads the next loop will use.
 inline int thread_count() {
   return omp_get_max_threads();
 }
@@ -27,13 +27,13 @@ inline void set_thread_count(int threads) {
   omp_set_num_threads(threads);
 }
 
-/// [bytes] Distance between memory that different threads write to: two cache lines, because processors fetch them in
-/// pairs.
+/// [bytes] Distance between memory to which different threads write: two cache lines, because processors fetch cache
+/// lines in pairs.
 inline constexpr std::size_t bytes_apart = 128;
 
-/// @brief Holds one T for each thread that a loop will use. They lie apart in memory, because threads that write to the
-/// same cache line wait for each other.
-/// @pre set_thread_count is not called while it lives, and no loop inside another one uses it
+/// @brief Holds one T for each thread of a loop. The objects lie far apart in memory, because threads that write to the
+/// same cache line slow each other down.
+/// @pre set_thread_count is not called while this object exists, and no loop inside of another loop uses it
 template <class T>
 class PerThread {
   struct alignas(bytes_apart) Slot {
@@ -55,7 +55,7 @@ class PerThread {
 public:
   PerThread(const PerThread&) = delete;
   PerThread& operator=(const PerThread&) = delete;
-  /// Makes each T from the same arguments.
+  /// Makes one T for each thread, all from the same arguments.
   template <class... Arguments>
   requires(!(... ||
              std::same_as<std::remove_cvref_t<Arguments>, PerThread>)) explicit PerThread(Arguments&&... arguments) {
@@ -65,7 +65,7 @@ public:
       slots_.emplace_back(arguments...);
   }
   T& operator[](int thread) { return slots_[static_cast<std::size_t>(thread)].value; }
-  /// Iterate over all T, by thread.
+  /// Iterate over the objects of all threads.
   auto begin() { return Iterator<Slot, T>{slots_.data()}; }
   auto end() { return Iterator<Slot, T>{slots_.data() + slots_.size()}; }
   auto begin() const { return Iterator<const Slot, const T>{slots_.data()}; }
@@ -75,9 +75,9 @@ private:
   std::vector<Slot> slots_;
 };
 
-/// Shares the items [0, n) of a loop among threads: each has a range, and a thread that has finished its own takes
-/// items from those of others. While all threads are equally fast, each thread gets the same items in every loop. So
-/// these items are in its caches and in the memory of its socket.
+/// Shares the items [0, n) of a loop among threads. Each thread has a range of items; a thread that has finished its
+/// range takes items from the ranges of others. While all threads are equally fast, each thread gets the same items in
+/// every loop. Then these items are in its caches and in the memory of its socket.
 class ItemRanges {
 public:
   ItemRanges(std::ptrdiff_t n, int threads, std::ptrdiff_t chunk)
@@ -105,7 +105,7 @@ public:
   }
 
 private:
-  /// Returns the first chunk of a thread's range. The calling thread, which begins first, has the first range.
+  /// Returns the first chunk in the range of a thread. Thread 0, which begins first, has the first range.
   static std::ptrdiff_t first_of(int thread, int threads, std::ptrdiff_t chunks) {
     return (chunks * thread + threads - 1) / threads;
   }
@@ -117,8 +117,8 @@ private:
   std::vector<Range> ranges_;
 };
 
-/// Calls body(item, thread) for item in [0, n), `chunk` items at a time, on any thread (see ItemRanges). After all
-/// items are done, rethrows the exception of the lowest item that threw: the same one on any number of threads.
+/// Calls body(item, thread) for each item in [0, n), `chunk` items at a time, on any thread (see ItemRanges). After all
+/// items are done, rethrows the exception of the lowest item that threw, which is the same for any number of threads.
 template <class Body>
 void thread_loop(std::ptrdiff_t n, int chunk, const Body& body) {
   std::exception_ptr thrown;
@@ -132,7 +132,7 @@ void thread_loop(std::ptrdiff_t n, int chunk, const Body& body) {
       for (std::ptrdiff_t item = begin; item < end; ++item)
         try {
           body(item, thread);
-        } catch (...) { // an exception must not cross the end of a parallel region
+        } catch (...) { // an exception must not leave a parallel region
 #pragma omp critical(trime_thread_loop)
           if (item < thrower) {
             thrower = item;
@@ -145,8 +145,8 @@ void thread_loop(std::ptrdiff_t n, int chunk, const Body& body) {
     std::rethrow_exception(thrown);
 }
 
-/// @brief As thread_loop, but the calling thread first does `work`, which may call MPI but must not throw; then it
-/// joins the loop.
+/// @brief Does the same as thread_loop, but the calling thread first does `work` while the other threads begin. `work`
+/// may call MPI but must not throw.
 template <class Work, class Body>
 void thread_loop_beside(const Work& work, std::ptrdiff_t n, const Body& body) {
   std::exception_ptr thrown;
@@ -170,7 +170,7 @@ void thread_loop_beside(const Work& work, std::ptrdiff_t n, const Body& body) {
     std::rethrow_exception(thrown);
 }
 
-/// Returns the sum (mod 2^64) of term(item) over the items [0, n). It does not depend on the number of threads. The
+/// Returns the sum (mod 2^64) of term(item) over the items [0, n), which does not depend on the number of threads. The
 /// terms must not throw.
 template <class Term>
 std::uint64_t thread_sum(std::size_t n, const Term& term) {
@@ -182,8 +182,9 @@ std::uint64_t thread_sum(std::size_t n, const Term& term) {
   return sum;
 }
 
-/// @brief Calls make(k, list) for k = 0 .. n-1, which may append to its list. Returns all lists joined, by rising k.
-/// @param chunk how many successive k one thread takes
+/// @brief Calls make(k, list) for k = 0 .. n-1; `make` may append to the list. Returns all lists, joined in the order
+/// of k.
+/// @param chunk number of successive k that one thread takes at a time
 template <class Item, class Make>
 std::vector<Item> gather_in_order(std::ptrdiff_t n, std::ptrdiff_t chunk, const Make& make) {
   std::vector<std::vector<Item>> lists(static_cast<std::size_t>((n + chunk - 1) / chunk));

@@ -185,7 +185,7 @@ std::vector<Halo::Peer> Halo::by_owner(std::vector<BinRef> bins) const {
   std::vector<Peer> peers;
   for (const BinRef& bin : bins) {
     const int owner = partition_.owner(bin.tile);
-    TRIME_ASSERT(owner != comm_->rank() || bin.image != 0, "rank {} asks for its own bins", owner);
+    TRIME_ASSERT(owner != comm_->rank() || bin.image != 0, "rank {} must not ask for bins that it owns itself", owner);
     if (peers.empty() || peers.back().rank != owner)
       peers.push_back({owner, {}});
     peers.back().bins.push_back(bin);

@@ -11,7 +11,7 @@
 namespace trime::delaunay {
 
 using Double2 [[gnu::vector_size(16)]] = double;
-using Mask2 [[gnu::vector_size(16)]] = std::int64_t; // -1 where true
+using Mask2 [[gnu::vector_size(16)]] = std::int64_t; // -1 in lanes where a comparison is true
 
 inline Double2 load2(const double* from) {
   Double2 v;
@@ -48,16 +48,17 @@ inline std::ptrdiff_t count_within(const geometry::Vec2* begin, const geometry::
 
 constexpr double epsilon = 0x1p-53;
 
-/// A circumcentre of the origin, a and b.
+/// The circumcentre of the origin, a and b, with an error bound.
 struct Vertex {
   double x, y, error, r2;
   bool sound;
 };
 
-/// Returns the circumcentre c = (|a|^2 b - |b|^2 a) turned by 90 degrees, over 2 a x b. Rounding errors are 4 eps S in
-/// the two sums of products of the numerators and 2 eps D in the determinant, where S and D are the sums of magnitudes.
-/// So each coordinate of c is exact to (4 eps S / 2 + |c| (2 eps D)) / det plus a few eps |c|. All bounds are rounded
-/// up generously. They do not hold if the determinant is as small as its error.
+/// Returns the circumcentre c = (|a|^2 b - |b|^2 a) turned by 90 degrees, over 2 a x b. Let S and D be the sums of the
+/// magnitudes of the products in the numerators and in the determinant. Rounding errors are at most 4 eps S in the
+/// numerators and 2 eps D in the determinant. So the error of each coordinate of c is at most (4 eps S / 2 + |c| (2 eps
+/// D)) / det plus a few eps |c|. All bounds are rounded up generously. The bounds do not hold if the determinant is as
+/// small as its error; then `sound` is false.
 inline Vertex circumcenter(double ax, double ay, double bx, double by) {
   const double a2 = ax * ax + ay * ay, b2 = bx * bx + by * by;
   const double axby = ax * by, aybx = ay * bx, determinant = axby - aybx;

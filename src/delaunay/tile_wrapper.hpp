@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Computes the stars of many sites of a tile at once. Groups of nearby sites share their candidates (wrap.hpp).
+// Computes the stars of many sites of a tile at once. Groups of nearby sites share the sites that may be their
+// neighbours (see wrap.hpp).
 #pragma once
 
 #include "delaunay/star_table.hpp"
@@ -14,25 +15,30 @@
 
 namespace trime::delaunay {
 
-/// Chooses with which of three reaches a search begins: the one that most of the last stars needed.
+/// Chooses at which of three distances a search begins: the one that was enough for most of the last stars.
 class ReachChoice {
 public:
-  /// The number of the reach: 0, 1 or 2, in rising order.
+  /// Returns the number of the distance: 0, 1 or 2, ascending.
   std::size_t level() const { return level_; }
-  /// @param stars number of computed stars @param larger number of these that needed a longer reach
+  /// Counts the result of a search.
+  /// @param stars number of computed stars
+  /// @param larger how many of them needed a longer distance
   void learn(std::size_t stars, std::size_t larger);
 
 private:
   std::size_t level_ = 0;
-  double stars_ = 0, larger_ = 0; // counts since the last change
+  double stars_ = 0, larger_ = 0; // counts since the last change of the level
 };
 
-/// Skips groups for a while where almost all stars have ties, as in a lattice. The pause becomes longer each time.
+/// Skips groups of sites for a while if almost all of their stars have ties, as in a regular lattice. The pause becomes
+/// longer each time.
 class TiePause {
 public:
-  /// Returns whether the next group is skipped, and counts it.
+  /// Returns whether the next group is skipped, and counts this group.
   bool skips_group();
-  /// @param stars number of computed stars @param undecided number of these that float32 could not decide
+  /// Counts the result of a group.
+  /// @param stars number of computed stars
+  /// @param undecided how many of them float32 could not decide
   void learn(std::size_t stars, std::size_t undecided);
 
 private:
@@ -40,28 +46,30 @@ private:
   int last_ = 0; // length of the last pause
 };
 
-/// The caps of the wanted stars of a tile; 0 for stars that are not wanted or are done.
+/// The largest circumradius (cap) in each wanted star of a tile; 0 for stars that are not wanted or already done.
 struct WantedStars {
-  std::span<double> caps; ///< caps by site of the tile
+  std::span<double> caps; ///< cap of each site of the tile
   LocalIndex first = 0;   ///< first site of the tile
 
   double& cap(LocalIndex i) const { return caps[static_cast<std::size_t>(i - first)]; }
 };
 
-/// Computes stars on one thread, and holds its work space.
+/// Computes stars on one thread, and holds the work space for that.
 class TileWrapper {
 public:
   TileWrapper(const mesh::BinnedPoints& points, StarTable& stars, const geometry::Lattice& lattice, SimdLevel level);
 
-  /// @brief Computes the stars of sites of a tile. Stores those that it can prove, and makes them certain.
-  /// @param caps the cap of the star of each site of the tile, 0 if it is not wanted; becomes 0 when the star is done
+  /// @brief Computes the stars of sites of a tile. Stores the stars that it can prove to be right, and marks them as
+  /// certain.
+  /// @param caps cap of the star of each site of the tile; 0 for stars that are not wanted. Becomes 0 when a star is
+  /// done
   /// @return number of stars that have changed
   std::int64_t compute(LocalIndex tile, std::span<double> caps);
 
 private:
-  /// Nearby sites, and the box that holds them.
+  /// Some nearby sites, and their bounding box.
   struct Group {
-    std::size_t begin, end; // range of order_
+    std::size_t begin, end; // range of indices into order_
     geometry::Box box;
   };
 
@@ -85,25 +93,25 @@ private:
   WrapKernel kernel_;
   std::unique_ptr<WrapGroup> group_;
 
-  // Data of the current tile.
+  // The data of the current tile.
   WantedStars wanted_;
   double spacing_ = 0; // square root of the area per site
   std::vector<LocalIndex> order_, again_;
   std::int64_t changed_ = 0;
 
-  // Data of the current group.
+  // The data of the current group of sites.
   geometry::Vec2 center_;
   double scale_ = 1; // a power of two
   std::vector<LocalIndex> candidate_;
   std::vector<mesh::BinRef> missing_;
   struct {
     std::vector<LocalIndex> before, now;
-  } rings_; // rings with more neighbours than StarTable has slots
+  } rings_; // buffers for rings with more neighbours than StarTable has slots
   struct {
     std::array<double, WrapGroup::most_candidates + 2> x, y;
-  } near_; // candidates that may lie in a disc of a star, relative to its site
+  } near_; // sites that may lie in a circumcircle of a star, relative to the star's site
 
-  // Choices that are learnt during the work. They cannot change a star.
+  // Choices that adapt to earlier results. These choices change only the computing time, never a star.
   ReachChoice reach_;
   TiePause ties_;
 };

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The kernel of wrap.hpp, which is compiled three times. Everything is in an anonymous namespace and calls nothing
-// outside, so that no code for a newer processor can be linked into the rest of the program.
+// Implements the kernel of wrap.hpp, and is compiled three times. Everything is in an anonymous namespace and calls no
+// function outside, so that no code for a newer processor can be linked into the rest of the program.
 //
-// Seen from a site p, every candidate q (an offset) is inverted: u = q / |q|^2. The disc of p, a, b holds q exactly if
-// u(q) lies to the right of the line from u(a) to u(b). So the star of p is the convex hull of the inverted candidates
-// (Brown 1979), which is wrapped from an extreme point on (Jarvis 1973). One lane is one site; O(candidates x degree).
+// Seen from a site p, every candidate q (relative to p) is inverted: u = q / |q|^2. The circumcircle of p, a, b
+// contains q exactly if u(q) lies to the right of the line from u(a) to u(b). So the star of p is the convex hull of
+// the inverted candidates (Brown 1979). The hull is wrapped from an extreme point on (Jarvis 1973). One vector lane
+// processes one site. Cost: O(candidates x degree).
 //
-// Why a ring is right. With eps = 2^-24 and U = largest |u|, at most 10^4:
-//  * a difference of two sites is known to 1.06 eps of itself, as is its inverse; the operations of the inversion add
-//    4.2 eps |u|. Every u is known to 5.4 eps U.
-//  * the wrap follows from vertex to vertex by adding edges, 3.1 eps U more for the vertex that it stands on. Edges are
-//    known to 16 eps U, and cross products of an edge with what leads from its first vertex to a candidate, as
-//    they are evaluated here, to E = 80 eps U^2.
-// * how the next vertex is searched does not matter, because afterwards each edge is tested against all candidates. If
-// all candidates except its two ends, and the origin (the site itself), are more than E to its left, it is an edge of
-// the hull around the origin. Consecutive edges of the hull that return to the first vertex are the whole hull.
+// Why a proven ring is right. Let eps = 2^-24, and let U, at most 10^4, be the largest |u|.
+// * The difference of two sites has a relative error of 1.06 eps, and so has its inverse; the operations of the
+//   inversion add 4.2 eps |u|. So the error of every u is at most 5.4 eps U.
+// * The wrapping goes from vertex to vertex by adding edges, which adds 3.1 eps U to the error of the current vertex.
+//   So the error of edges is at most 16 eps U. Consider the cross product of an edge with the vector from its first
+//   vertex to a candidate: as evaluated here, its error is at most E = 80 eps U^2.
+// * How the next vertex is searched does not matter, because afterwards each edge is tested against all candidates. If
+//   all other candidates, and the origin (the site itself), are to the left of an edge by more than E, the edge belongs
+//   to the hull around the origin. Consecutive edges of the hull that return to the first vertex are the whole hull.
 #pragma once
 
 #include "delaunay/wrap.hpp"
@@ -22,7 +23,8 @@
 namespace trime::delaunay {
 namespace {
 
-/// Wraps `lanes` sites at once; `chains` independent searches of the best candidate hide the latency of one.
+/// Wraps the stars of `lanes` sites at once. `chains` independent searches for the best candidate hide the latency of
+/// each other.
 template <int lanes, int chains>
 class Wrap {
   using Floats [[gnu::vector_size(lanes * 4)]] = float;
@@ -30,7 +32,7 @@ class Wrap {
 
 public:
   explicit Wrap(WrapGroup& group) : group_(group), n_(group.candidates) {
-    for (int k = 0; k < chains; ++k) // rows that no comparison selects
+    for (int k = 0; k < chains; ++k) // rows with NaN, which no comparison selects
       group.candidate[n_ + k].x = __builtin_nanf("");
     n_ += (chains - n_ % chains) % chains;
     static_assert(chains <= WrapGroup::padding);
@@ -45,8 +47,8 @@ public:
       const Step step = advance();
       proven &= (step.right == -2) | ~tested_;
       tested_ = open;
-      // The extent of the edge's disc from the site: circumcentre plus and minus radius along the axes, rounded
-      // outward.
+      // Bounding box of the edge's circumcircle, relative to the site: circumcentre plus and minus radius along the
+      // axes, rounded outward.
       const Floats turned = ax_ * step.wy - ay_ * step.wx;
       const Floats half = 0.5f / (turned - error_), slack = edge_error_;
       const Floats length = square_root(step.wx * step.wx + step.wy * step.wy) * 1.000001f + slack;
@@ -76,7 +78,7 @@ public:
 private:
   struct Step {
     Floats wx, wy; // the edge to the best candidate
-    Ints best;     // negative: none
+    Ints best;     // number of the best candidate; negative if no candidate is left
     Ints right;    // minus the number of candidates that are not to the left of the last edge
   };
 
@@ -111,19 +113,20 @@ private:
     return found != 0;
   }
 
-  /// Inverts all candidates and finds the extreme one in a direction that is not special for lattices.
+  /// Inverts all candidates, and finds the extreme one in a direction that is not parallel to lines of a lattice.
   void invert() {
     constexpr float large = 1e30f, slope = 0.2915f;
     const Floats site_x = load(group_.site_x), site_y = load(group_.site_y);
     const Floats rest_x = load(group_.site_rest_x), rest_y = load(group_.site_rest_y);
     Floats first = all(-large), x = all(0.f), y = all(0.f);
-    Floats nearest = all(large), next = all(large); // squared distances; the nearest one is the site itself
+    Floats nearest = all(large),
+           next = all(large); // squared distances of the two nearest candidates; the nearest one is the site itself
     Ints start = all(-1), counter{};
     for (int c = 0; c < n_; ++c) {
       const WrapGroup::Candidate& q = group_.candidate[c];
       const Floats dx = (q.x - site_x) + (q.rest_x - rest_x), dy = (q.y - site_y) + (q.rest_y - rest_y);
       const Floats d2 = dx * dx + dy * dy;
-      const Floats inverse = 1.f / d2; // the site itself becomes NaN, which no comparison selects
+      const Floats inverse = 1.f / d2; // NaN for the site itself, which no comparison selects
       const Floats ux = dx * inverse, uy = dy * inverse;
       store(group_.u[c], ux);
       store(group_.u[c] + lanes, uy);
@@ -147,21 +150,21 @@ private:
     nearest_ = next;
   }
 
-  /// Sets the bounds derived at the top of this file. Returns the lanes that can be decided.
+  /// Sets the error bounds that the top of this file derives. Returns the lanes that can be decided.
   Ints set_bounds() {
     constexpr float epsilon = 0x1p-24f;
     const Floats size = 1.001f / square_root(nearest_);
-    edge_error_ = 34 * epsilon * size; // for a component and the length together
+    edge_error_ = 34 * epsilon * size; // error of a component and of the length together
     error_ = 80 * epsilon * size * size;
     return size < 1e4f;
   }
 
-  /// Returns the next edge of the hull from the vertex at (ax_, ay_), and the test of the last edge.
+  /// Returns the next edge of the hull from the vertex at (ax_, ay_), and the result of testing the last edge.
   Step advance() const {
     Floats wx[chains], wy[chains];
     Ints best[chains], right[chains];
     for (int k = 0; k < chains; ++k) {
-      wx[k] = -ax_ - 0.37f * edge_x_; // into the hull, left of all candidates that may follow
+      wx[k] = -ax_ - 0.37f * edge_x_; // a vector into the hull, to the left of all candidates that may follow
       wy[k] = -ay_ - 0.37f * edge_y_;
       best[k] = all(-chains - 1);
       right[k] = Ints{};
@@ -174,7 +177,7 @@ private:
         const Floats ux = load(group_.u[c + k]), uy = load(group_.u[c + k] + lanes);
         right[k] += edge_x * uy - edge_y * ux <= limit;
         const Floats vx = ux - ax, vy = uy - ay;
-        const Ints wins = wx[k] * vy - wy[k] * vx < least; // never the vertex itself
+        const Ints wins = wx[k] * vy - wy[k] * vx < least; // never true for the vertex itself
         wx[k] = wins ? vx : wx[k];
         wy[k] = wins ? vy : wy[k];
         best[k] = wins ? counter : best[k];
@@ -192,7 +195,7 @@ private:
     return step;
   }
 
-  /// Returns the test of the last edge.
+  /// Returns the result of testing the last edge.
   Ints count_right() const {
     Ints right[2]{};
     for (int c = 0; c < n_; ++c)
@@ -213,9 +216,9 @@ private:
   }
 
   WrapGroup& group_;
-  int n_;                          // candidates, padded to a multiple of `chains`
-  Floats ax_, ay_;                 // the vertex
-  Floats edge_x_, edge_y_, limit_; // the last edge, and the bound on cross products to its left
+  int n_;                          // number of candidates, rounded up to a multiple of `chains`
+  Floats ax_, ay_;                 // the current vertex
+  Floats edge_x_, edge_y_, limit_; // the last edge, and the bound on cross products for candidates to its left
   Floats nearest_, error_, edge_error_;
   Ints start_, tested_{}; // lanes that have a last edge
 };

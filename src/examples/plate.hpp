@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The problem that 04_solver and 07_petsc solve: -Laplace(u) = f in a plate with a round hole. On the part "plate" of
-// the boundary u is given, on the part "hole" its slope along the normal.
+// The problem that 04_solver and 07_petsc solve: -Laplace(u) = f in a plate with a round hole. On the boundary part
+// "plate" the values of u are given (Dirichlet), on the boundary part "hole" its normal derivative (Neumann).
 #pragma once
 
 #include <trime/trime.hpp>
@@ -11,7 +11,7 @@ namespace plate {
 
 using trime::Vec2;
 
-/// The exact u, its gradient and f.
+/// The exact solution u, its gradient and the right-hand side f.
 inline double solution(Vec2 p) {
   return std::sin(2 * p.x) * std::exp(p.y);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes the arrays of the mesh from certified stars, with triangles in canonical order, and measures the quality.
+// Makes the arrays of the mesh from certified stars, with triangles in canonical order, and measures their quality.
 #pragma once
 
 #include "decomposition/numbering.hpp"
@@ -14,13 +14,14 @@ struct Extraction {
   mesh::DistributedMesh mesh;
   mesh::QualitySummary quality;
 };
-/// @pre the stars of all sites are certain, and bins and halo are up to date. O(points), by all threads.
-/// @throws GeometryError on all ranks together if the size at an edge is not positive and finite. Collective.
-/// @param asked h before it was lowered near the boundary, for the facets
+/// Makes the arrays of the mesh. Cost: O(points), by all threads. Collective.
+/// @pre the stars of all sites are certain, and bins and halo are up to date
+/// @throws GeometryError on all ranks together if the size at an edge is not positive and finite
+/// @param asked the size before it was lowered near the boundary; its values are stored for the facets
 Extraction extract_mesh(const sites::StageView& view, const decomposition::Numbering& numbering,
                         const sizing::SizeField& asked);
 
-/// Checks that no triangle is worse than `most`, except next to corners below 60 degrees.
+/// Checks that no triangle has an alpha above `most`, except next to corners below 60 degrees.
 mesh::Check worst_alpha_check(const mesh::QualitySummary& quality, double most);
 
 } // namespace trime::extraction

@@ -1,6 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Measures the quality of the finished mesh. Every triangle and every edge counts once over all ranks. They are
-// processed in blocks, so that the compiler can vectorise the loops.
+// SPDX-License-Identifier: BSD-3-Clause Measures the quality of the finished mesh. Every triangle and every edge is
+// counted once over all ranks. Triangles and edges are processed in blocks, so that the compiler can vectorise the
+// loops.
 #pragma once
 
 #include "polygon/polygon.hpp"
@@ -16,18 +16,18 @@
 
 namespace trime::extraction {
 
-/// The corners of the boundary that are sharper than 60 degrees on the inside. Replicated, immutable.
+/// All corners of the boundary with an interior angle below 60 degrees. The list is the same on every rank. Immutable.
 class SharpCorners {
 public:
   SharpCorners(const polygon::BoundarySites& boundary, const geometry::Periods& periods);
 
-  /// A corner and its angle in degrees; 0 if there is no corner.
+  /// A corner and its angle in degrees. An angle of 0 means that there is no corner.
   struct Corner {
     geometry::Vec2 place;
     double degrees = 0;
   };
-  /// @brief Returns the corner nearest to the vertices of a triangle, within 3 of its longest edges. Of equally near
-  /// ones it returns the first in lexicographic order. O(corners in a strip of this width).
+  /// @brief Returns the corner nearest to the vertices of a triangle, if it is at most 3 longest edges of the triangle
+  /// away. Of equally near corners it returns the lexicographically first. Cost: O(corners in a strip of this width).
   Corner near(geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r) const;
 
 private:
@@ -35,36 +35,37 @@ private:
   std::vector<Corner> corners_; // in lexicographic order
 };
 
-/// Counts bad triangles and lists the worst, by alpha and then by place. Objects may be merged in any order.
+/// Counts bad triangles and lists the worst, ordered by alpha and then by place. Objects may be merged in any order.
 class BadTriangles {
 public:
-  /// @pre alpha is above ExtractionRules::listed_alpha
+  /// Adds a bad triangle.
+  /// @pre its alpha is above ExtractionRules::listed_alpha
   void add(const mesh::BadTriangle& triangle);
   void merge(const BadTriangles& other);
-  /// Number of triangles of this rank so far.
+  /// Returns the number of bad triangles of this rank so far.
   std::int64_t count() const { return count_; }
-  /// @brief Merges the lists of all ranks into the same list on every rank. Collective. @param count number over all
-  /// ranks; if it is 0, nothing is sent
+  /// @brief Merges the lists of all ranks into the same list on every rank. Collective.
+  /// @param count number of bad triangles over all ranks; if it is 0, nothing is sent
   void gather(const comm::Communicator& comm, std::int64_t count);
   /// Writes the count, the list, and the worst triangle away from sharp corners into the summary.
   void tell(mesh::QualitySummary& quality) const;
 
 private:
   std::int64_t count_ = 0;
-  std::vector<mesh::BadTriangle> worst_; ///< sorted, at most ExtractionRules::most_listed
+  std::vector<mesh::BadTriangle> worst_; ///< sorted by alpha and place, at most ExtractionRules::most_listed
   mesh::BadTriangle away_;               ///< the worst triangle that is not near a sharp corner
 };
 
-/// Sums over triangles and edges. They can be merged in any order: sums are integers inside, and of equally bad
-/// triangles and equally short edges the lexicographically first is kept.
+/// Sums over triangles and edges. Sums of several threads and ranks can be merged in any order, because the sums are
+/// integers, and of equally bad triangles and equally short edges the lexicographically first is kept.
 struct QualitySums {
   mesh::RatioStatistics alpha, beta;
-  double least_sine = std::numeric_limits<double>::infinity(); ///< sine of the smallest angle of a triangle
+  double least_sine = std::numeric_limits<double>::infinity(); ///< sine of the smallest angle of any triangle
   double worst_alpha = 0;
   geometry::Vec2 worst_place;
   double shortest = std::numeric_limits<double>::infinity(); ///< length of the shortest edge
-  geometry::Vec2 shortest_place;                             ///< its middle, in the container
-  FixedSum ratio, squared_ratio;                             ///< sums of L / h over edges
+  geometry::Vec2 shortest_place;                             ///< middle of the shortest edge, in the container
+  FixedSum ratio, squared_ratio; ///< sums of L / h and of its square over all edges of length L
   std::int64_t edges = 0;
   BadTriangles bad;
 
@@ -73,7 +74,7 @@ struct QualitySums {
   void add(const QualitySums& other);
 };
 
-/// @brief Returns the summary over all ranks by three reductions, and two more gathers if there are bad triangles.
+/// @brief Returns the summary over all ranks. Takes three reductions, and two gathers if there are bad triangles.
 /// Afterwards sums.bad holds the bad triangles of all ranks. Collective.
 mesh::QualitySummary summarize(const comm::Communicator& comm, QualitySums& sums);
 
@@ -84,15 +85,16 @@ public:
   QualityMeter(const sizing::SizeField& size, const geometry::Periods& periods, const SharpCorners& corners)
       : size_(size), periods_(periods), corners_(corners) {}
 
-  /// Makes the ratios of the following triangles go to these arrays, one after the other.
+  /// Sets the arrays to which alpha and beta of the following triangles are written, one after the other.
   void write_to(std::span<float> alpha, std::span<float> beta) {
     alpha_ = alpha;
     beta_ = beta;
   }
   void add_triangle(geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r);
-  /// @throws GeometryError if h in the middle of an edge is not positive and finite
+  /// Adds an edge.
+  /// @throws GeometryError if h at the middle of the edge is not positive and finite
   void add_edge(geometry::Vec2 p, geometry::Vec2 q);
-  /// Measures the triangles and edges that still wait.
+  /// Measures the remaining triangles and edges of incomplete blocks.
   void finish();
   QualitySums& sums() { return sums_; }
 
@@ -115,7 +117,7 @@ private:
   const geometry::Periods& periods_;
   const SharpCorners& corners_;
   QualitySums sums_;
-  std::size_t triangles_ = 0, edges_ = 0; // number that wait for a full block
+  std::size_t triangles_ = 0, edges_ = 0; // numbers of triangles and edges in the incomplete blocks
   Places p_, q_, r_, from_, to_;
   std::span<float> alpha_, beta_;
 };

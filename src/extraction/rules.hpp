@@ -6,17 +6,18 @@
 
 namespace trime::extraction {
 
-/// Numbers that decide which triangles are listed, and which of them are excused by a sharp corner.
+/// Numbers that decide which triangles are listed as bad, and for which of them a sharp corner is named as the reason.
 struct ExtractionRules {
-  /// [1] Triangles with a larger alpha are counted, and the worst of them are listed. They have an angle below 22
-  /// degrees or above 98. Not measured.
+  /// [1] Triangles with a larger alpha are counted as bad, and the worst of them are listed. Such a triangle has an
+  /// angle below 22 degrees or above 98. Not measured.
   static constexpr double listed_alpha = 2;
-  /// [triangles] Largest length of the list, so that it fits into the report. Not measured.
+  /// [triangles] Largest number of listed triangles, so that the list fits into the report. Not measured.
   static constexpr std::size_t most_listed = 10;
-  /// [degrees] A corner with a smaller angle inside does not hold an equilateral triangle. Not measured.
+  /// [degrees] An equilateral triangle does not fit into a corner with a smaller interior angle. Not measured.
   static constexpr double sharp_degrees = 60;
-  /// [longest edges of the triangle] A triangle within this distance of such a corner is excused. The shells around the
-  /// corner, and the triangles that adapt to them, reach about as far. Not measured.
+  /// [longest edges of the triangle] A corner within this distance counts as the reason for a bad triangle. The sites
+  /// at equal distances around the corner (shells), and the triangles that adapt to them, reach about as far. Not
+  /// measured.
   static constexpr double corner_reach = 3;
 };
 

@@ -34,7 +34,8 @@ void check_name(const std::string& name) {
   if (name.empty() || !std::all_of(name.begin(), name.end(), is_allowed))
     throw ConfigError(fmt::format("the name '{}' of a part: expected letters, digits, '_' and '-'", name));
   if (name == shape::domain_name)
-    throw ConfigError(fmt::format("a part is called '{}', which means the container: choose another name", name));
+    throw ConfigError(
+        fmt::format("a part is called '{}', but this name stands for the container: choose another name", name));
 }
 
 /// The parts from left to right, each once. @throws ConfigError for names

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From the shape and the size of a program to the boundary and the size field on every rank. A Shape is an expression
-// of parts as the user gave them.
+// Makes the boundary and the size field, on every rank, from the shape and the size that a program gave. A Shape is an
+// expression of parts.
 #pragma once
 
 #include "trime/comm/communicator.hpp"
@@ -42,17 +42,19 @@ struct FunctionForm {
 };
 struct DomainForm {};
 
-/// A part, or an operation on at least two operands.
+/// A part of a shape, or an operation on at least two shapes.
 struct Shape::Node {
   enum class Operation { part, unite, subtract, intersect };
   Operation operation = Operation::part;
-  std::string name{}; ///< name of a part
+  std::string name{}; ///< name of the part; empty for an operation
   std::variant<DomainForm, RectangleForm, CircleForm, RingsForm, FileForm, FunctionForm> form{};
   std::vector<Shape> operands{};
 };
 
-/// @brief Returns the value of the user's function at p. @param what names the function in messages
-/// @throws GeometryError on this rank alone, with the place, if the function throws anything other than an Error
+/// @brief Returns the value of the user's function at p.
+/// @param what name of the function in messages
+/// @throws GeometryError on this rank alone, with the place, if the function throws; an Error of the function is passed
+/// on unchanged
 inline double called(const std::function<double(geometry::Vec2)>& function, geometry::Vec2 p, const std::string& what) {
   try {
     return function(p);
@@ -66,12 +68,16 @@ inline double called(const std::function<double(geometry::Vec2)>& function, geom
   }
 }
 
-/// @brief Reads contours on rank 0, chooses the container as trime_mpi does, and makes the boundary with its fixed
-/// points.
-/// @throws ConfigError, GeometryError, FileError on all ranks together @note Collective.
+/// @brief Reads contour files on rank 0, chooses the container in the same way as trime_mpi, and makes the boundary
+/// with its fixed points.
+/// @throws ConfigError, GeometryError, FileError on all ranks together
+/// @note Collective.
 geometry::Domain build_domain(const Shape& shape, const MeshOptions& options, const comm::Communicator& comm, Log& log);
 
-/// @pre `size` outlives the field @throws ConfigError on all ranks together @note Collective.
+/// Makes the size field.
+/// @pre `size` outlives the field
+/// @throws ConfigError on all ranks together
+/// @note Collective.
 std::shared_ptr<const sizing::SizeField> build_size(const Size& size, const geometry::Domain& domain,
                                                     const meshing::MeshOptions& options,
                                                     const comm::Communicator& comm);

@@ -57,8 +57,8 @@ void check_same(const Shape& shape, const MeshOptions& options, const comm::Comm
     for (const std::string& item : items) {
       const std::string theirs = of_root.substr(start, of_root.find('\n', start) - start);
       if (item != theirs)
-        throw ConfigError(fmt::format("the ranks ask for different meshes: rank 0 has '{}', another one '{}'; expected "
-                                      "the same shape and options on all ranks",
+        throw ConfigError(fmt::format("the ranks ask for different meshes: rank 0 has '{}', another rank has '{}'; "
+                                      "expected the same shape and options on all ranks",
                                       theirs, item));
       start += theirs.size() + 1;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Looks up names of the boundary.
+// Finds the number of a boundary name.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,8 @@
 
 namespace trime {
 
-/// Returns the number of a name. @throws ConfigError on this rank alone, with the known names, if the name is not known
+/// Returns the index of `name` in `names`.
+/// @throws ConfigError on this rank alone if the name is unknown; the message lists the known names
 std::int32_t number_of(const std::string& name, const std::vector<std::string>& names);
 
 } // namespace trime

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Presents a distributed mesh to the writers of foreign formats: as rows of points, triangles and labelled boundary
-// edges.
+// Gives a distributed mesh to the writers of formats of other programs: as rows of points, triangles and labelled
+// boundary edges.
 #pragma once
 
 #include "io/text_rows.hpp"
@@ -13,7 +13,7 @@
 
 namespace trime::formats {
 
-/// A file as rows that all ranks write together.
+/// The path of a file and its rows, which all ranks write together.
 struct FilePlan {
   std::string path;
   std::vector<io::TextRows> rows;
@@ -33,7 +33,8 @@ void append_line(std::string& text, T... values) {
 
 class ExchangeMesh {
 public:
-  /// Collective. @pre all arguments outlive this object and the rows that it makes
+  /// Counts and labels the parts of the mesh. Collective.
+  /// @pre all arguments outlive this object and the rows that it makes
   ExchangeMesh(const mesh::DistributedMesh& mesh, const Names& names, const comm::Communicator& comm);
 
   const mesh::DistributedMesh& mesh() const { return mesh_; }
@@ -42,22 +43,23 @@ public:
   GlobalId points() const { return mesh_.point_slab.total; }
   GlobalId triangles() const { return mesh_.triangle_slab.total; }
   GlobalId facets() const { return mesh_.facet_slab.total; }
-  /// Numbers of boundary edges of a part and of triangles of a region, over all ranks.
+  /// Return the number of boundary edges of a part, and of triangles of a region, over all ranks.
   GlobalId facets_of_part(std::size_t part) const { return facets_of_part_[part]; }
   GlobalId triangles_of_region(std::size_t region) const { return triangles_of_region_[region]; }
   geometry::Vec2 lower() const { return lower_; }
   geometry::Vec2 upper() const { return upper_; }
 
-  /// Label of a boundary edge, region of a triangle, and label of a point (0 inside), by row of this rank.
+  /// Return the label of a boundary edge, the region of a triangle, and the label of a point (0 inside); `row` counts
+  /// on this rank.
   std::int64_t facet_label(std::int64_t row) const { return mesh_.facet_parts[static_cast<std::size_t>(row)] + 1; }
   std::int64_t region(std::int64_t row) const {
     return mesh_.region.empty() ? 1 : mesh_.region[static_cast<std::size_t>(row)];
   }
   std::int64_t point_label(std::int64_t row) const { return point_labels_[static_cast<std::size_t>(row)]; }
 
-  /// Returns rows that contain a text once, regardless of how rows are distributed.
+  /// Returns rows with a text that occurs once in the file, however many ranks there are.
   io::TextRows once(std::string text) const;
-  /// Calls append(row, global number, value, text) for each row of this rank.
+  /// Return rows for which append(row, global number, value, text) is called, once for each row of this rank.
   template <class Append>
   io::TextRows point_rows(const Append& append) const {
     return {std::ssize(mesh_.points), [this, append](std::int64_t row, std::string& text) {
@@ -85,11 +87,11 @@ private:
   const Names& names_;
   const comm::Communicator& comm_;
   std::vector<std::int64_t> facets_of_part_, triangles_of_region_;
-  std::vector<std::int32_t> point_labels_; // labels by point of the slab
+  std::vector<std::int32_t> point_labels_; // label of each point of the slab
   geometry::Vec2 lower_, upper_;
 };
 
-// The writers of formats. Each plans its files; `path` is the first of them. Collective.
+// The writers of the formats. Each returns the plan of its files; `path` is that of the first file. Collective.
 std::vector<FilePlan> plan_gmsh(const ExchangeMesh& mesh, const std::string& path);
 std::vector<FilePlan> plan_gmsh2(const ExchangeMesh& mesh, const std::string& path);
 std::vector<FilePlan> plan_medit(const ExchangeMesh& mesh, const std::string& path);

@@ -53,7 +53,7 @@ double quality_attribute(const io::Metadata& metadata, const std::string& name) 
     for (const io::Attribute& attribute : group->attributes)
       if (const double* value = std::get_if<double>(&attribute.value); value && attribute.name == name)
         return *value;
-  throw FileError(fmt::format("no quality/{} of a mesh", name));
+  throw FileError(fmt::format("the metadata of a mesh do not contain quality/{}", name));
 }
 
 mesh::RatioSummary ratios_of(const io::Metadata& metadata, const std::string& name) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes all files of one run: a mesh file per output step, the final mesh in all formats that are wanted, and the
-// collections that ParaView plays as a time series.
+// Writes all files of one run: a mesh file for each output step, the final mesh in all wanted formats, and the
+// collections that ParaView shows as a time series.
 #pragma once
 
 #include "formats/text_mesh.hpp"
@@ -17,23 +17,23 @@
 
 namespace trime::formats {
 
-/// Says which files a run writes.
+/// Which files a run writes.
 struct SeriesOptions {
-  io::MeshFileOptions file; ///< MeshSeries chooses its views by the formats
-  /// In vtkhdf, xdmf and text all meshes are written, in others only the final one. The files of text are in the folder
-  /// `file.path("")`, the others next to NAME.h5.
+  io::MeshFileOptions file; ///< options of the HDF5 file; its views vtkhdf and xdmf are chosen by `formats`
+  /// In vtkhdf, xdmf and text, the meshes of all output steps are written; in other formats only the final mesh. The
+  /// files of text are in the folder `file.path("")`, files of other formats next to NAME.h5.
   std::vector<Format> formats{Format::vtkhdf, Format::xdmf};
-  bool steps = false; ///< the run writes meshes before the final one
-  Names names{};      ///< for all formats except vtkhdf and xdmf
+  bool steps = false; ///< whether the run also writes meshes before the final one
+  Names names{};      ///< names of boundaries and regions, for all formats except vtkhdf and xdmf
 
   bool wants(Format format) const { return std::find(formats.begin(), formats.end(), format) != formats.end(); }
-  /// Paths of the files in formats of other programs.
+  /// Returns the paths of the files in formats of other programs.
   std::vector<std::string> export_paths() const;
 };
 
-/// The mesh of one step. The references must be valid during the call.
+/// The mesh of one output step. The references must be valid during the call.
 struct SeriesMesh {
-  int retriangulation = 0; ///< counts from 1; it is the time in the series
+  int retriangulation = 0; ///< number of the triangulation, from 1; used as the time in the series
   const mesh::DistributedMesh& mesh;
   const mesh::QualitySummary& quality;
   const io::Metadata& metadata;
@@ -45,36 +45,38 @@ public:
   /// @pre `comm` outlives this object
   MeshSeries(SeriesOptions options, const comm::Communicator& comm);
 
-  /// @brief Creates the directories and checks that all files can be written, also those of steps, whose numbers are
-  /// not known yet. Call it before long work whose result would be lost.
-  /// @return warnings, also about a disk that seems too small for `expected_points`; on rank 0 only
-  /// @throws FileError on all ranks if a file cannot be written, or exists and may not be overwritten
+  /// @brief Creates the directories and checks that all files can be written, even those of output steps whose numbers
+  /// are not known yet. Call this before long computations whose result would otherwise be lost.
+  /// @return warnings, for example about a disk that seems too small for `expected_points`; on rank 0 only
+  /// @throws FileError on all ranks if a file cannot be written, or if it exists and may not be overwritten
   /// @note Collective.
   std::vector<std::string> check(double expected_points);
 
-  /// @brief Does the same as check(), but creates nothing and looks only at permissions.
+  /// @brief Makes the same checks as check(), but creates no directory and no file: it only looks at permissions.
   /// @throws FileError on all ranks @note Collective.
   std::vector<std::string> look(double expected_points) const;
 
-  /// @brief Continues from a checkpoint: the steps that the run had written until then belong to it, and stay.
+  /// @brief Continues after a restart from a checkpoint: the files of steps that the run had written before the
+  /// checkpoint are kept and belong to the series.
   /// @param retriangulation number of the last step before the checkpoint
   /// @return warnings about files of steps that cannot be read, the same on all ranks
-  /// @note Collective. Call it before anything is written.
+  /// @note Collective. Must be called before any file is written.
   std::vector<std::string> go_on_after(int retriangulation);
 
-  /// @brief Writes NAME_step_000012.h5 (12: the retriangulation) with its views, and updates the collections.
+  /// @brief Writes the mesh of a step as NAME_step_000012.h5 (where 12 is the number of the triangulation) with its
+  /// views, and updates the collections.
   /// @throws FileError on all ranks together
   /// @note Collective.
   void write_step(const SeriesMesh& mesh);
 
-  /// Writes the last mesh of the run as write_step() does, under the plain name, and in the formats of other programs.
-  /// @return the files of the run, those of the final mesh first, on rank 0 only
+  /// Writes the final mesh of the run as NAME.h5 with its views, and in the formats of other programs.
+  /// @return the files of the run, with those of the final mesh first; on rank 0 only
   io::WrittenFiles write_final(const SeriesMesh& mesh);
 
 private:
-  /// A mesh that is in the directory now.
+  /// A mesh of the series whose files are in the directory.
   struct Member {
-    std::string name; ///< stem of its files
+    std::string name; ///< file name without ending
     TextQuality quality;
   };
 
@@ -85,8 +87,8 @@ private:
   SeriesOptions options_;
   const comm::Communicator& comm_;
   std::vector<Member> members_;
-  bool is_cleared_ = false;              ///< files of an older run have been removed
-  std::vector<std::string> collections_; ///< files that list all members
+  bool is_cleared_ = false;              ///< whether files of an older run have been removed
+  std::vector<std::string> collections_; ///< files that list all meshes of the series
 };
 
 } // namespace trime::formats

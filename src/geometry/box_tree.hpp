@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds which of many boxes meet a given box.
+// Finds which of many boxes meet a given box, by a search tree.
 #pragma once
 
 #include "trime/core/types.hpp"
@@ -11,15 +11,16 @@
 
 namespace trime::geometry {
 
-/// @brief A binary hierarchy of boxes, which is divided along x or y, whichever extent is longer. So it is also fast
-/// for boxes along one line. Immutable and thread-safe after it is built.
+/// @brief A binary tree of boxes. Each node is divided along its longer side, so the tree is also fast for boxes along
+/// one line. Immutable and thread-safe after construction.
 class BoxTree {
 public:
   BoxTree() = default;
-  /// O(n log n). @pre no box is empty, all numbers are finite
+  /// Builds the tree. Cost: O(n log n).
+  /// @pre no box is empty, and all coordinates are finite
   explicit BoxTree(std::span<const Box> boxes);
 
-  /// Calls visit(index) once for each box that meets `box`, in the order of the tree. Boxes are closed. O(log n +
+  /// Calls visit(index) once for each box that meets `box`, in the order of the tree. Boxes are closed. Cost: O(log n +
   /// found) if few boxes overlap.
   template <class Visit>
   void for_each_meeting(const Box& box, const Visit& visit) const {
@@ -58,7 +59,7 @@ private:
 
   static constexpr std::size_t run_length = 4;
   std::vector<Item> items_;
-  std::vector<Box> nodes_; // heap order: the root is 1, the children of k are 2k and 2k+1
+  std::vector<Box> nodes_; // in the order of a heap: the root is 1, the children of k are 2k and 2k+1
 };
 
 } // namespace trime::geometry

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exact predicates for points of one lattice (lattice.hpp), in its container or within twice its size around it.
+// Exact geometric predicates for points of one coordinate lattice (lattice.hpp). The points lie in the lattice's
+// container, or at most twice its size away.
 #pragma once
 
 #include "trime/geometry/lattice.hpp"
@@ -10,8 +11,8 @@ namespace trime::geometry {
 /// @brief Returns the sign of the area of the triangle a, b, c: +1 if counter-clockwise, 0 if collinear, -1 if
 /// clockwise. Exact.
 ///
-/// The differences of lattice points are exact, and rounding is monotone: if the two rounded products differ, so do
-/// the products, in the same sense. Only equal rounded products need their rounding errors (two fused products).
+/// The differences of lattice points are exact, and rounding is monotone: if the two rounded products differ, the exact
+/// products differ in the same direction. Only equal rounded products need their rounding errors (two fused products).
 inline int orient2d(Vec2 a, Vec2 b, Vec2 c) {
   const double acx = a.x - c.x, acy = a.y - c.y, bcx = b.x - c.x, bcy = b.y - c.y;
   const double left = acx * bcy, right = acy * bcx;
@@ -23,17 +24,17 @@ inline int orient2d(Vec2 a, Vec2 b, Vec2 c) {
   return (left_error > right_error) - (left_error < right_error);
 }
 
-/// @brief Returns +1 if d lies inside the circle through a, b, c (counter-clockwise), -1 if outside. Exact; never 0 for
-/// four different points where a, b, c are not collinear.
+/// @brief Returns +1 if d lies inside the circle through a, b, c (counter-clockwise), -1 if outside. Exact; never 0 if
+/// the four points are different and a, b, c are not collinear.
 ///
-/// Cocircular points are decided as if the lifted height x^2+y^2 of each point were raised by an infinitesimal. It is
-/// larger for points later in lexicographic order (symbolic perturbation, Devillers and Teillaud 2011). So the answer
-/// depends on the coordinates alone. A float filter (Shewchuk 1997, error bound A) decides nearly all calls; the rest
-/// are evaluated in 192-bit integers on lattice steps.
+/// Cocircular points are decided by symbolic perturbation (Devillers and Teillaud 2011): the lifted height x^2+y^2 of
+/// each point is raised by an infinitesimal amount, which is larger for points later in lexicographic order. So the
+/// answer depends on the coordinates alone. A floating-point filter (Shewchuk 1997, error bound A) decides nearly all
+/// calls; the others are evaluated in 192-bit integers on lattice steps.
 int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice);
 
-/// @brief Returns the result of in_circle if its float filter is certain, otherwise 0. It is inline and without
-/// branches, so that the compiler can vectorise loops over many quadruples.
+/// @brief Returns the result of in_circle if the floating-point filter is certain, otherwise 0. The function is inline
+/// and without branches, so that the compiler can vectorise loops over many calls.
 inline int in_circle_filter(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   const double ax = a.x - d.x, ay = a.y - d.y, bx = b.x - d.x, by = b.y - d.y, cx = c.x - d.x, cy = c.y - d.y;
   const double bxcy = bx * cy, cxby = cx * by, cxay = cx * ay, axcy = ax * cy, axby = ax * by, bxay = bx * ay;
@@ -46,11 +47,12 @@ inline int in_circle_filter(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   return (determinant > error_bound * permanent) - (determinant < -error_bound * permanent);
 }
 
-/// Returns the result of in_circle without the filter: for tests, and if the filter is not certain.
+/// Computes in_circle in exact integers without the filter. Used by tests, and if the filter is not certain.
 int in_circle_exact(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice);
 
-/// @brief As in_circle, in a periodic container, where images of the four points give the same result. Ties are broken
-/// by the order of the canonical images, so all images of four points agree. Without periods it is the function above.
+/// @brief Computes in_circle in a periodic container, where periodic images of the four points must give the same
+/// result. Ties are broken by the order of the canonical images, so all images of four points agree. If the container
+/// is not periodic, it is the function above.
 int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice, const Periods& periods);
 
 /// @brief Returns -1 if p lies strictly inside the circle with diameter a-b, 0 on it, +1 outside: the sign of
@@ -66,23 +68,23 @@ inline int diametral_side(Vec2 a, Vec2 b, Vec2 p) {
   return (left_error > right_error) - (left_error < right_error);
 }
 
-/// Returns the side of a line of direction d to which the move leads; 0 only if d is zero.
+/// Returns the side of a line with direction d to which symbolic perturbation moves a point; 0 only if d is zero.
 inline int side_of_move(Vec2 d) {
   return d.x != 0 ? (d.x > 0 ? 1 : -1) : (d.y < 0) - (d.y > 0);
 }
 
-/// Returns the side of the line a-b on which the moved point q lies; 0 only if a == b.
+/// Returns the side of the line a-b on which the symbolically perturbed point q lies; 0 only if a == b.
 inline int perturbed_side(const Segment& s, Vec2 q) {
   const int sign = orient2d(s.a, s.b, q);
   return sign != 0 ? sign : side_of_move(s.b - s.a);
 }
 
-/// Returns whether the segment crosses the way from p to q, where both are moved. By the even-odd rule, each segment of
-/// closed polygons that crosses a way changes the side.
+/// Returns whether the segment crosses the straight way from p to q, both perturbed. By the even-odd rule, each crossed
+/// segment of closed polygons leads from inside to outside or back.
 inline bool crosses_way(const Segment& s, Vec2 p, Vec2 q) {
   if (p == q || perturbed_side(s, p) == perturbed_side(s, q))
     return false;
-  const auto side = [&](Vec2 end) { // side of the moved way; the end is moved back instead of the way
+  const auto side = [&](Vec2 end) { // side of the perturbed way; the end is moved back instead of the way
     const int sign = orient2d(p, q, end);
     return sign != 0 ? sign : -side_of_move(q - p);
   };

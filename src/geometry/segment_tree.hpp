@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds which of many segments may meet a given one, also among long slanted segments that lie next to each other.
+// Finds which of many segments may meet a given segment, efficiently even for long slanted segments next to each other.
 #pragma once
 
 #include "trime/core/types.hpp"
@@ -11,18 +11,19 @@
 
 namespace trime::geometry {
 
-/// @brief A binary hierarchy of rotated boxes around segments of similar direction.
+/// @brief A binary tree of rotated boxes around segments of similar direction.
 ///
-/// In a grid of square cells, n long parallel segments close to each other would all share cells. Here a group of
-/// segments has a box along their mean direction. It is divided by direction, or across or along the box, whichever
-/// makes its parts smallest. O(n log n) to build, O(n) memory; immutable and thread-safe after it is built.
+/// In a grid of square cells, n long parallel segments close to each other would share all cells. Here a group of
+/// segments has a box along their mean direction. The group is divided by direction, or along or across the box,
+/// whichever gives the smallest parts. Takes O(n log n) time to build and O(n) memory; immutable and thread-safe after
+/// construction.
 class SegmentTree {
 public:
-  /// @param margin a segment at most this far away counts as meeting
+  /// @param margin a segment that is at most this far away counts as meeting
   explicit SegmentTree(std::span<const Segment> segments, double margin = 0);
 
-  /// Calls visit(index) once for every segment that may meet `segment`, until it returns false. It visits all segments
-  /// that do meet it. O(log n + found) for segments that do not cross.
+  /// Calls visit(index) once for every segment that may meet `segment`, until visit returns false. All segments that do
+  /// meet it are visited. Cost: O(log n + found) for segments that do not cross.
   template <class Visit>
   void for_each_near(const Segment& segment, const Visit& visit) const {
     if (!order_.empty())
@@ -36,11 +37,11 @@ public:
   }
 
 private:
-  /// The box of a node. All its segments lie in center + u along + v across, with |u| <= half.x, |v| <= half.y.
+  /// The box of a node. All points of its segments are center + u along + v across, with |u| <= half.x, |v| <= half.y.
   struct Turned {
     Vec2 center, along{1, 0}, half;
   };
-  /// The target of a search: a segment, which is a box without width, or a box that is not rotated.
+  /// The target of a search: a segment, which is a rotated box without width, or an axis-parallel box.
   struct Frame : Turned {
     explicit Frame(const Segment& segment);
     explicit Frame(const Box& box);
@@ -68,8 +69,8 @@ private:
   static constexpr std::size_t run_length = 2;
   std::span<const Segment> segments_; // used only while the tree is built
   std::vector<LocalIndex> order_;
-  std::vector<Turned> nodes_; // heap order: the root is 1, the children of k are 2k and 2k+1
-  double slack_;              // the margin, and an allowance for rounding
+  std::vector<Turned> nodes_; // in the order of a heap: the root is 1, the children of k are 2k and 2k+1
+  double slack_;              // the margin plus an allowance for rounding
 };
 
 } // namespace trime::geometry

@@ -189,7 +189,8 @@ private:
     for (const GlobalId ghost : ghosts)
       made_.ghost_owners.push_back(owner(ghost));
     const std::size_t most = std::max(mesh_.points.size() + ghosts.size(), owned_.size() + foreign_.size());
-    TRIME_ASSERT(most <= std::size_t{std::numeric_limits<LocalIndex>::max()}, "{} items on a rank", most);
+    TRIME_ASSERT(most <= std::size_t{std::numeric_limits<LocalIndex>::max()},
+                 "a rank has {} points or triangles, more than a local index can count", most);
   }
 
   LocalIndex local(GlobalId point) const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Converts attributes and small datasets to types and spaces of HDF5. Nothing here accesses a file.
+// Converts attributes and small datasets to types and dataspaces of HDF5. Nothing in this file accesses a file.
 #pragma once
 
 #include "io/hdf5_handle.hpp"
@@ -11,10 +11,11 @@
 
 namespace trime::io {
 
-/// Returns the space of an array. @param columns 0 for one dimension
+/// Returns the dataspace of an array.
+/// @param columns 0 for a one-dimensional array
 Hdf5Space array_space(hsize_t rows, hsize_t columns);
 
-/// The values of an attribute or of a small dataset, ready to be written.
+/// The values of an attribute or of a small dataset in the form that HDF5 writes.
 struct SmallValues {
   Hdf5Type type;
   Hdf5Space space;

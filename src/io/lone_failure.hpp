@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Handles an error of one rank in a collective call of MPI-IO, in which the other ranks would wait without end.
+// Ends the job if only one rank has an error in a collective call of MPI-IO, because the other ranks would wait without
+// end.
 #pragma once
 
 #include <chrono>
@@ -10,16 +11,17 @@
 
 namespace trime::io {
 
-/// @brief Ends the job if the other ranks do not get to know about an error in time.
+/// @brief Ends the job if the other ranks do not learn about an error within some time.
 ///
-/// In Open MPI and ROMIO, the rank whose disk fails leaves a collective write, and the others stay in it. There they
-/// receive no message, so only the launcher can end them.
+/// In Open MPI and ROMIO, a rank whose disk fails leaves a collective write, while the other ranks stay in it. There
+/// they receive no message, so only the launcher can end them.
 class LoneFailure {
 public:
-  /// Longer than one collective call takes on a slow file system, and shorter than users wait for an answer.
+  /// Time for the other ranks to learn about the error. This time is longer than one collective call takes on a slow
+  /// file system, and short enough for users to wait.
   static constexpr std::chrono::seconds usual_patience{20};
 
-  /// @param path the temporary file, which is removed when the job ends
+  /// @param path path of the temporary file, which is removed when the job ends
   explicit LoneFailure(std::string path, std::chrono::milliseconds patience = usual_patience)
       : path_(std::move(path)), patience_(patience) {}
   /// Must run when all ranks have reached the place where they agree on the error.
@@ -27,8 +29,8 @@ public:
   LoneFailure(const LoneFailure&) = delete;
   LoneFailure& operator=(const LoneFailure&) = delete;
 
-  /// Starts the time that the other ranks have. After it, prints the message on stderr and ends this process with the
-  /// exit code of a FileError. Does nothing if no thread can be started.
+  /// Begins to wait for the other ranks. When the time is over, prints the message on stderr and ends this process with
+  /// the exit code of a FileError. Does nothing if no thread can be started.
   void begin(const std::string& message) noexcept;
 
 private:

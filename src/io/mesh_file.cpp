@@ -258,16 +258,16 @@ void write_hdf5(const std::string& path, const MeshFileOptions& options, const m
 void check_shapes(const mesh::DistributedMesh& mesh) {
   const std::size_t points = mesh.points.size(), triangles = mesh.triangles.size(), facets = mesh.facets.size();
   TRIME_ASSERT(mesh.boundary.size() == points && mesh.size.size() == points && mesh.fixed.size() == points,
-               "{} points, {} boundary, {} size, {} fixed", points, mesh.boundary.size(), mesh.size.size(),
-               mesh.fixed.size());
+               "the arrays of points have different lengths: {} points, {} boundary, {} size, {} fixed", points,
+               mesh.boundary.size(), mesh.size.size(), mesh.fixed.size());
   TRIME_ASSERT(mesh.alpha.size() == triangles && mesh.beta.size() == triangles &&
                    (mesh.region.empty() || mesh.region.size() == triangles),
-               "{} triangles, {} alpha, {} beta, {} region", triangles, mesh.alpha.size(), mesh.beta.size(),
-               mesh.region.size());
+               "the arrays of triangles have different lengths: {} triangles, {} alpha, {} beta, {} region", triangles,
+               mesh.alpha.size(), mesh.beta.size(), mesh.region.size());
   TRIME_ASSERT(mesh.facet_tags.size() == facets && mesh.facet_parts.size() == facets &&
                    mesh.facet_sizes.size() == facets,
-               "{} facets, {} tags, {} parts, {} sizes", facets, mesh.facet_tags.size(), mesh.facet_parts.size(),
-               mesh.facet_sizes.size());
+               "the arrays of facets have different lengths: {} facets, {} tags, {} parts, {} sizes", facets,
+               mesh.facet_tags.size(), mesh.facet_parts.size(), mesh.facet_sizes.size());
 }
 
 /// Rank 0: final names, and the views that belong to them.

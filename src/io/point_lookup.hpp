@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds points of a distributed mesh by their global ids, on any rank.
+// Finds positions and sizes of points of a distributed mesh by their global ids, on any rank.
 #pragma once
 
 #include "trime/comm/communicator.hpp"
@@ -9,20 +9,21 @@
 
 namespace trime::io {
 
-/// The place of a point and the target edge length there.
+/// The position of a point, and the target edge length there.
 struct MeshPoint {
   geometry::Vec2 position;
   double size = 0;
 };
 
-/// @brief Fetches points from the ranks that hold them, and keeps them. Memory: 32 bytes per different id.
+/// @brief Fetches points from the ranks that hold them, and stores them. Memory: 32 bytes per different id.
 class PointLookup {
 public:
   /// @param wanted global ids of points of the mesh, in any order, possibly repeated
   /// @note Collective; two sparse exchanges.
   PointLookup(const mesh::DistributedMesh& mesh, std::vector<GlobalId> wanted, const comm::Communicator& comm);
 
-  /// @pre `id` was wanted. O(log ids).
+  /// Returns the point with this id. Cost: O(log ids).
+  /// @pre `id` was among the wanted ids
   const MeshPoint& operator[](GlobalId id) const;
 
 private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An HDF5 file that all ranks write together. Each rank writes a contiguous slab of each large array, in slices.
-// Attributes, columns and texts are small and the same on every rank. After each step the ranks agree on errors, so
-// that all of them throw together and no rank is left waiting.
+// An HDF5 file that all ranks write together. Each rank writes a contiguous range of rows (slab) of each large array,
+// in slices. Attributes, columns and texts are small and the same on every rank. After each step the ranks agree on
+// errors, so that all of them throw together and no rank is left waiting.
 #pragma once
 
 #include "io/hdf5_handle.hpp"
@@ -20,50 +20,51 @@
 
 namespace trime::io {
 
-/// An array of `slab.total` rows over all ranks. The rows are made on demand, slice by slice, so there is no second
-/// copy of an array. Several threads make a slice while another one is written or read.
+/// An array of `slab.total` rows over all ranks. Rows are made on demand, slice by slice, so no second copy of an array
+/// is needed. Several threads make a slice while another slice is written or read.
 struct SlabArray {
   std::string path;
   hid_t type = -1;             ///< native type of one value, in memory and in the file
   std::size_t value_bytes = 0; ///< size of one value
-  hsize_t columns = 0;         ///< 0 for a one-dimensional array
+  hsize_t columns = 0;         ///< number of columns; 0 for a one-dimensional array
   mesh::Slab slab;
-  std::int64_t rows = 0; ///< rows of this rank
-  /// Writes rows [first, first + count) of this rank to `out`; must give the same bytes at each call.
+  std::int64_t rows = 0; ///< number of rows on this rank
+  /// Writes rows [first, first + count) of this rank to `out`; must write the same bytes at each call.
   std::function<void(std::int64_t first, std::int64_t count, std::byte* out)> fill;
 
   std::size_t row_bytes() const { return value_bytes * (columns == 0 ? 1 : static_cast<std::size_t>(columns)); }
 };
 
-/// All functions are collective and throw FileError on all ranks together. Errors name the file by `path`.
+/// All member functions are collective and throw FileError on all ranks together. Error messages name the file by
+/// `path`.
 class SlabFile {
 public:
-  /// @brief Creates or empties the file. One rank uses the plain driver, several MPI-IO.
-  /// @param bytes the size that the file will have, which is reserved on the file system before anything is written, if
-  /// possible. If a disk becomes full during a collective write, Open MPI reports it only to some of the ranks, and the
-  /// others wait without end.
+  /// @brief Creates or empties the file. On one rank it uses the POSIX driver of HDF5, on several ranks MPI-IO.
+  /// @param bytes the final size of the file, which is reserved on the file system before anything is written, if
+  /// possible. Otherwise the disk might become full during a collective write: Open MPI reports that to some of the
+  /// ranks only, and the other ranks wait without end
   SlabFile(const comm::Communicator& comm, std::string path, std::int64_t bytes = 0);
 
   void group(const std::string& path);
   void hard_link(const std::string& existing, const std::string& path);
-  /// Writes an attribute of `object`, which is the path of a group or dataset. Texts are shortened to
-  /// longest_attribute.
+  /// Writes an attribute of `object`, which is the path of a group or dataset. A text longer than longest_attribute is
+  /// shortened.
   void attribute(const std::string& object, const Attribute& attribute);
   void attribute(const std::string& object, const std::string& name, std::span<const std::int64_t> values);
-  /// Writes an ASCII text of exactly its length without terminator, as readers of VTKHDF require.
+  /// Writes an ASCII text without terminator, in exactly its length, as readers of VTKHDF require.
   void ascii_attribute(const std::string& object, const std::string& name, const std::string& text);
   void column(const std::string& group, const Column& column);
   void text(const std::string& path, const std::string& text);
-  /// Writes an array. Keeps it open, with a copy of its description, for verify().
+  /// Writes an array. Keeps the dataset open, and a copy of the array's description, for verify().
   void slab(SlabArray array);
-  /// Flushes the file, reads every slab back, and compares each byte with the data of its rank. Called once, after all
-  /// slabs.
+  /// Flushes the file, reads every slab back, and compares each byte with the data of its rank. Must be called once,
+  /// after all slabs.
   void verify();
   void close();
 
 private:
-  // A collective call of HDF5 has three steps, so that no rank leaves while others wait in it. First the ranks prepare
-  // everything that may throw, and agree on errors. Then all ranks make the call at once. Then they agree on its
+  // A collective call of HDF5 has three steps, so that no rank leaves while others wait in the call. First the ranks
+  // prepare everything that may throw, and agree on errors. Then all ranks make the call. Then they agree on its
   // result.
   template <class Work>
   void agreed(const Work& work) const;
@@ -90,11 +91,11 @@ private:
 
   const comm::Communicator& comm_;
   std::string path_;
-  WriteBack write_back_; // must end after the file is closed
+  WriteBack write_back_; // its destructor must run after the file is closed
   Hdf5File file_;
   std::vector<Written> written_;
-  SliceBuffer slice_, other_slice_;              // the slice that is written or was read, and the next one
-  std::vector<UnsetVector<std::byte>> expected_; // by thread: the bytes that should have been read
+  SliceBuffer slice_, other_slice_;              // the slice that is written or was read, and the next slice
+  std::vector<UnsetVector<std::byte>> expected_; // for each thread, the bytes that should have been read
 };
 
 } // namespace trime::io

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Memory for data that is copied to and from files.
+// A memory buffer for data that is copied to and from files.
 #pragma once
 
 #include "trime/core/types.hpp"
@@ -10,12 +10,12 @@
 
 namespace trime::io {
 
-/// @brief A buffer of bytes that are not set. Modulo the page size, its address differs by half a page from the place
-/// in the file. If the two were almost equal, processors would mistake loads for loads of just stored data, and copies
-/// between the buffer and the pages of the file would be ten times slower. Aligned to cache lines.
+/// @brief A buffer of uninitialised bytes, aligned to cache lines. Modulo the page size, its address differs by half a
+/// page from the position in the file. If the two were almost equal, processors would mistake loads for loads of just
+/// stored data, and copies between the buffer and the pages of the file would be ten times slower.
 class SliceBuffer {
 public:
-  /// @param place the position of the first byte in the file; the old content of the buffer is lost
+  /// @param place position of the first byte in the file. The old content of the buffer is lost
   void resize(std::size_t bytes, std::uint64_t place) {
     memory_.resize(bytes + page);
     const std::uintptr_t wanted = (static_cast<std::uintptr_t>(place) + page / 2) / line * line;

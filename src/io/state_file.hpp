@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A file with the state of a run: named values, texts and columns, and distributed arrays. This module does not know
-// what they mean.
+// Writes and reads a file with the state of a run: named values, texts and columns, and distributed arrays. The module
+// io stores them without using them.
 #pragma once
 
 #include "trime/comm/communicator.hpp"
@@ -21,39 +21,41 @@ class RunFiles;
 /// The type of the elements of an array.
 enum class ValueKind { float64, int64, int32, uint8 };
 
-/// A distributed array in the group with which its path begins. The rows are made on demand, see SlabArray.
+/// A distributed array. The path of an array begins with the name of its group. Rows are made on demand, see SlabArray.
 struct StateArray {
   std::string path; ///< "group/name"
   ValueKind kind;
-  int columns; ///< 0 for a one-dimensional array
+  int columns; ///< number of columns; 0 for a one-dimensional array
   mesh::Slab slab;
-  std::int64_t rows; ///< rows of this rank
+  std::int64_t rows; ///< number of rows on this rank
   std::function<void(std::int64_t first, std::int64_t count, std::byte* out)> fill;
 };
 
 /// @brief Writes the file, reads every array back, compares it, and renames the file; an older file of this name stays
-/// until then. Writes the metadata of rank 0, whose groups may also hold arrays.
-/// @param files keeps track of the temporary file; may be null
-/// @throws FileError on all ranks together, after removing the temporary file
-/// @note Collective. Ranks may hold nothing.
+/// until then. The metadata of rank 0 is written; its groups may also contain arrays.
+/// @param files keeps the name of the temporary file for a signal handler; may be null
+/// @throws FileError on all ranks together; the temporary file is removed
+/// @note Collective. A rank may have no rows.
 void write_state_file(const std::string& path, RunFiles* files, const Metadata& metadata,
                       const std::vector<StateArray>& arrays, const comm::Communicator& comm);
 
-/// @brief Reads the metadata of such a file. One-dimensional arrays of the given groups are among their columns.
+/// @brief Reads the metadata of a state file. One-dimensional arrays in the given groups are returned as columns.
 /// @param groups groups whose columns are read
 /// @throws FileError on all ranks together if the file cannot be read
 /// @note Collective.
 Metadata read_state_metadata(const std::string& path, const std::vector<std::string>& groups,
                              const comm::Communicator& comm);
 
-/// Reads arrays of such a file, for one rank alone.
+/// Reads arrays of a state file on one rank.
 class StateFileReader {
 public:
-  /// @throws FileError
+  /// Opens the file.
+  /// @throws FileError if it cannot be opened
   explicit StateFileReader(const std::string& path);
   ~StateFileReader();
   bool has(const std::string& path) const;
-  /// Rows [first, first + count) into `out`, which has room for them. @throws FileError
+  /// Reads rows [first, first + count) of an array into `out`, which must have room for them.
+  /// @throws FileError if the array cannot be read
   void read(const std::string& path, ValueKind kind, int columns, std::int64_t first, std::int64_t count,
             void* out) const;
 

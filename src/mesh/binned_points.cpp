@@ -85,8 +85,8 @@ LocalIndex BinnedPoints::assign(const Sites& list, LocalIndex first_tile, LocalI
   if (!order_.is_grouped())
     order_.group(grid(), list, first_tile, last_tile);
   TRIME_ASSERT(order_.grouped() == list.size() && this->first_tile() == first_tile && this->last_tile() == last_tile,
-               "{} sites of tiles {}..{} were grouped, found {} of {}..{}", order_.grouped(), this->first_tile(),
-               this->last_tile(), list.size(), first_tile, last_tile);
+               "{} sites of the tiles {}..{} were grouped before, but now there are {} of the tiles {}..{}",
+               order_.grouped(), this->first_tile(), this->last_tile(), list.size(), first_tile, last_tile);
   const LocalIndex dropped = sort(list);
   take_places(order_, list, positions_, has_leads_ ? &leads_ : nullptr);
   take_labels(order_, list, boundary_, pushes_);
@@ -98,7 +98,7 @@ LocalIndex BinnedPoints::assign(const Sites& list, LocalIndex first_tile, LocalI
 
 void BinnedPoints::sort_moved(std::span<const std::uint8_t> gone, std::span<const Site> more,
                               std::vector<LocalIndex>& new_index) {
-  TRIME_ASSERT(state_ == State::prepared, "sites without next places cannot be sorted");
+  TRIME_ASSERT(state_ == State::prepared, "sites can be sorted at their next places only after prepare_advance()");
   const MovedSites moved(*this, gone, more);
   const LocalIndex before = moved.size();
   order_.group(grid(), moved, first_tile(), last_tile());
@@ -125,7 +125,8 @@ LocalIndex BinnedPoints::sort(const Sites& sites) {
 
 void BinnedPoints::assign_ghosts(std::span<const BinRef> bins, std::span<const std::int32_t> counts,
                                  std::span<const Ghost> sites) {
-  TRIME_ASSERT(state_ == State::sorted || state_ == State::prepared, "ghosts before owned sites, or after their end");
+  TRIME_ASSERT(state_ == State::sorted || state_ == State::prepared,
+               "ghosts can be assigned only while there are sorted owned sites");
   bins_.forget_foreign();
   drifts_.make_room(bins_.owned_tiles());
   marks_.make_room(bins_.owned_tiles());
@@ -157,7 +158,7 @@ void BinnedPoints::add_ghosts(std::span<const BinRef> bins, std::span<const std:
 }
 
 void BinnedPoints::prepare_advance() {
-  TRIME_ASSERT(state_ == State::sorted || state_ == State::prepared, "no sites that could move");
+  TRIME_ASSERT(state_ == State::sorted || state_ == State::prepared, "sites can move only after they were sorted");
   next_.positions_.resize(positions_.size());
   next_.leads_.resize(leads_.size());
   state_ = State::prepared;
@@ -178,7 +179,7 @@ void prepare_to_stay(BinnedPoints& points) {
 
 void BinnedPoints::advance() {
   TRIME_ASSERT(state_ == State::prepared && next_.positions_.size() == positions_.size(),
-               "{} sites have {} next places", positions_.size(), next_.positions_.size());
+               "there are {} sites, but {} next places", positions_.size(), next_.positions_.size());
   std::copy(positions_.begin() + owned_, positions_.end(), next_.positions_.begin() + owned_);
   positions_.swap(next_.positions_);
   leads_.swap(next_.leads_);
@@ -186,7 +187,8 @@ void BinnedPoints::advance() {
 }
 
 void BinnedPoints::release_leads() {
-  TRIME_ASSERT(state_ == State::sorted || state_ == State::prepared, "no sites whose leads could be released");
+  TRIME_ASSERT(state_ == State::sorted || state_ == State::prepared,
+               "leads can be released only while there are sorted sites");
   has_leads_ = false;
   release(leads_);
   release(next_.leads_);
@@ -207,8 +209,8 @@ std::vector<BinnedPoints::Newcomer> BinnedPoints::place_newcomers(std::span<cons
   std::vector<Newcomer> list;
   for (std::size_t k = 0; k < come.size(); ++k) {
     const LocalIndex tile = grid().tile_at(come[k].position);
-    TRIME_ASSERT(tile >= first_tile() && tile < last_tile(), "site of tile {} given to the owner of {}..{}", tile,
-                 first_tile(), last_tile());
+    TRIME_ASSERT(tile >= first_tile() && tile < last_tile(),
+                 "a site of tile {} was given to the owner of the tiles {}..{}", tile, first_tile(), last_tile());
     const int bin = grid().bin_at(come[k].position, tile, grid().bin_bits(tile));
     list.push_back({{tile, bin}, static_cast<LocalIndex>(k), 0});
   }
@@ -242,8 +244,9 @@ std::vector<BinnedPoints::Newcomer> BinnedPoints::place_newcomers(std::span<cons
 
 IndexShift BinnedPoints::edit(std::vector<LocalIndex> gone, std::span<const Site> come,
                               std::vector<LocalIndex>& new_index) {
-  TRIME_ASSERT(state_ == State::sorted || state_ == State::prepared, "no sorted sites that could be edited");
-  TRIME_ASSERT(!has_leads_ && drifts_.largest().distance == 0, "sites that move must be sorted, not edited");
+  TRIME_ASSERT(state_ == State::sorted || state_ == State::prepared, "sites can be edited only while they are sorted");
+  TRIME_ASSERT(!has_leads_ && drifts_.largest().distance == 0,
+               "sites that have moved since the last sorting cannot be edited");
   assign_ghosts({}, {}, {});
   const std::vector<Newcomer> list = place_newcomers(come, gone);
   std::vector<LocalIndex> places;

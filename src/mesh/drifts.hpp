@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is known of each tile between two sorts: how far its sites have come since they were sorted into bins, and a
-// mark.
+// Two kinds of data about each tile between two sortings of the sites: how far its sites have moved since they were
+// sorted into bins (the drift), and a mark.
 #pragma once
 
 #include "mesh/known_bins.hpp"
@@ -13,29 +13,32 @@
 
 namespace trime::mesh {
 
-/// A bound on how far any site of any rank has moved since the sites were sorted.
+/// An upper bound on how far any site of any rank has moved since the last sorting of the sites.
 struct DriftBound {
-  double distance = 0; ///< domain units
-  /// Distance over the shortest side of the tile into which the site was sorted and of its neighbours; below 1.
+  double distance = 0; ///< distance in domain units
+  /// The distance divided by the shortest side of the site's tile and of the tiles next to it; below 1.
   double in_sides = 0;
 };
 
-/// For each known tile, by its number in KnownBins, a bound on how far a site that was sorted into it has moved since.
+/// For each known tile, an upper bound on how far any of its sites has moved since the last sorting. Tiles are numbered
+/// as in KnownBins.
 class Drifts {
 public:
   double of(LocalIndex tile) const { return of_tile_[static_cast<std::size_t>(tile)]; }
   void set(LocalIndex tile, double distance) { of_tile_[static_cast<std::size_t>(tile)] = distance; }
   std::span<const double> of_tiles() const { return of_tile_; }
-  /// The bound for all tiles of all ranks, which is the only bound for tiles without known bins.
+  /// Returns the bound for all tiles of all ranks. This is the only bound for tiles without known bins.
   const DriftBound& largest() const { return largest_; }
   void set_largest(const DriftBound& bound) { largest_ = bound; }
 
-  /// Sets all bounds to 0 after sites were sorted. @param tiles number of owned tiles
+  /// Sets all bounds to 0 after the sites were sorted.
+  /// @param tiles number of owned tiles
   void forget(LocalIndex tiles);
-  /// Sets how many tiles are known. A new tile gets the bound for all tiles.
+  /// Sets the number of known tiles. A new tile gets the bound for all tiles.
   void make_room(LocalIndex tiles) { of_tile_.resize(static_cast<std::size_t>(tiles), largest_.distance); }
-  /// @brief Returns how much farther a search around `center` must go in the bins. O(tiles that the search meets). It
-  /// depends on the drift of nearby tiles only, so sites that move far in coarse regions do not slow down dense ones.
+  /// @brief Returns how much farther a search around `center` must go in the bins. Cost: O(tiles that the search
+  /// meets). The result depends on the drift of nearby tiles only, so sites that move far in coarse regions do not slow
+  /// down searches in dense ones.
   double margin(geometry::Vec2 center, double reach, const KnownBins& bins) const;
 
 private:
@@ -43,17 +46,18 @@ private:
   DriftBound largest_;
 };
 
-/// @brief A mark of each known tile, by its number in KnownBins, that its owner sets. Other ranks that know the tile
-/// receive the mark with the places of its sites; until then they treat it as set. The code that sets a mark decides
-/// what it means.
+/// @brief One mark for each known tile, numbered as in KnownBins. The owner of the tile sets the mark. Other ranks that
+/// know the tile receive the mark together with the places of its sites; until then they treat it as set. The meaning
+/// of the mark is up to the caller.
 class TileMarks {
 public:
   bool of(LocalIndex tile) const { return marks_[static_cast<std::size_t>(tile)] != 0; }
   void set(LocalIndex tile, bool mark) { marks_[static_cast<std::size_t>(tile)] = mark; }
 
-  /// Sets all marks after sites were sorted. @param tiles number of owned tiles
+  /// Sets all marks after the sites were sorted.
+  /// @param tiles number of owned tiles
   void forget(LocalIndex tiles) { marks_.assign(static_cast<std::size_t>(tiles), 1); }
-  /// Sets how many tiles are known, and marks the new ones.
+  /// Sets the number of known tiles, and the marks of the new ones.
   void make_room(LocalIndex tiles) { marks_.resize(static_cast<std::size_t>(tiles), 1); }
 
 private:

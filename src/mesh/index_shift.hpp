@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Changes local indices after a few sites were removed and a few inserted. The others keep their order and move up or
-// down in runs.
+// Changes local indices after a few sites were removed and a few were inserted. The other sites keep their order, and
+// their indices shift in runs.
 #pragma once
 
 #include "trime/core/types.hpp"
@@ -16,8 +16,8 @@ class IndexShift {
 public:
   /// @param before length of the list
   /// @param gone indices of the removed entries, ascending, each once
-  /// @param places for each inserted entry, the old index of the entry before which it is inserted, or `before`;
-  /// ascending
+  /// @param places for each inserted entry, the old index of the entry before which it is inserted, or `before` for the
+  /// end; ascending
   IndexShift(LocalIndex before, std::span<const LocalIndex> gone, std::span<const LocalIndex> places);
 
   LocalIndex before() const { return before_; }
@@ -27,10 +27,11 @@ public:
   /// Returns the new indices of the inserted entries, in the order of `places`.
   std::span<const LocalIndex> come() const { return come_; }
 
-  /// Returns the new index of each old one, -1 for removed entries. O(list).
+  /// Returns the new index of each old entry; -1 for removed entries. Cost: O(list).
   std::vector<LocalIndex> new_indices() const;
 
-  /// @brief Moves the entries of a vector in place. Inserted entries are not set. O(entries behind the first change).
+  /// @brief Moves the entries of a vector in place. Inserted entries are not set. Cost: O(entries after the first
+  /// change).
   /// @pre the vector has `before` entries
   template <class Vector>
   void move(Vector& values) const;
@@ -49,7 +50,7 @@ template <class Vector>
 void IndexShift::move(Vector& values) const {
   values.resize(at(std::max(before_, after_)));
   const auto begin = values.begin();
-  // A run ends before the next one begins, so a run that moves down does not overwrite one that has not moved yet.
+  // A run ends before the next one begins, so a run that moves down cannot overwrite a run that has not moved yet.
   for (const auto& [from, to, count] : runs_)
     if (to < from)
       std::copy(begin + from, begin + from + count, begin + to);

@@ -1,6 +1,5 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Stores which sites lie in which bin. A rank knows all bins of the tiles that it owns, and some bins of other ranks'
-// tiles.
+// SPDX-License-Identifier: BSD-3-Clause Stores which sites lie in which bin. A rank knows all bins of the tiles that it
+// owns, and some bins of other ranks' tiles.
 #pragma once
 
 #include "mesh/site.hpp"
@@ -16,14 +15,14 @@
 
 namespace trime::mesh {
 
-/// The local indices begin .. end - 1.
+/// The range of local indices from `begin` to `end` - 1.
 struct SiteRange {
   LocalIndex begin, end;
 };
 
-/// @brief Stores the range of local indices of each known bin, but not the sites. Each tile with a known bin has a
-/// number: first come the owned tiles in their order, then the others in the order in which they became known. O(known
-/// bins) memory.
+/// @brief Stores the range of local indices of each known bin, but not the sites themselves. Each tile with a known bin
+/// has a number: first the owned tiles in their order, then the others in the order in which they became known. Memory:
+/// O(known bins).
 class KnownBins {
 public:
   /// @pre `grid` outlives this object
@@ -31,24 +30,26 @@ public:
 
   const TileGrid& grid() const { return *grid_; }
 
-  /// Makes the bins of tiles [first_tile, last_tile) known, and no others. The caller sets their ranges.
+  /// Makes the bins of the tiles [first_tile, last_tile) known, and forgets all other bins. The caller sets their
+  /// ranges.
   void own(LocalIndex first_tile, LocalIndex last_tile);
   /// Forgets all bins except those of the owned tiles.
   void forget_foreign();
-  /// Makes the bin of a foreign tile, or of an image of any tile, known. It holds these sites.
+  /// Makes a bin of a foreign tile, or of a periodic image of any tile, known, with its sites.
   void add_foreign(BinRef bin, SiteRange sites);
-  /// Frees the ranges; they must not be used until own() is called.
+  /// Frees the ranges. The ranges must not be used until own() is called again.
   void release_ranges();
 
-  /// The begin and the end of each bin of one owned tile, row by row.
+  /// The first and the last index of each bin of one owned tile, row by row.
   struct TileBins {
     std::span<LocalIndex> begin, end;
-    int bits; ///< 2^bits x 2^bits bins
+    int bits; ///< the tile has 2^bits x 2^bits bins
   };
-  /// @param k the tile, counted from the first owned one
+  /// Returns the bins of one tile.
+  /// @param k number of the tile, counted from the first owned tile
   TileBins owned_tile(LocalIndex k);
 
-  /// Returns the sites of a bin; empty if the bin is unknown.
+  /// Returns the sites of a bin; an empty range if the bin is unknown.
   SiteRange range(BinRef bin) const {
     const LocalIndex block = block_of(bin.tile, bin.image);
     if (block < 0)
@@ -56,37 +57,38 @@ public:
     const std::size_t at = blocks_[static_cast<std::size_t>(block)].first_bin + static_cast<std::size_t>(bin.bin);
     return {begin_[at], end_[at]};
   }
-  /// Calls visit(BinRef, SiteRange) for the known bins of foreign tiles and images, in ascending order.
+  /// Calls visit(BinRef, SiteRange) for all known bins of foreign tiles and of periodic images, in ascending order.
   template <class Visit>
   void for_each_foreign(const Visit& visit) const;
-  /// Returns the number of a tile that has a known bin, or -1.
+  /// Returns the number of a tile that has a known bin; -1 for other tiles.
   LocalIndex known_tile(LocalIndex tile) const { return block_of(tile, 0); }
   LocalIndex owned_tiles() const { return owned_blocks_; }
-  /// All numbers of known tiles are below this.
+  /// Returns the number of known tiles, which are numbered from 0.
   LocalIndex known_tiles() const { return static_cast<LocalIndex>(blocks_.size()); }
 
-  /// As BinnedPoints::for_each_near, for sites that have not moved since the bins were filled.
+  /// Does the same as BinnedPoints::for_each_near, for sites that have not moved since they were sorted into bins.
   template <class Visit, class Missing>
   void for_each_near(geometry::Vec2 center, double reach, const Visit& visit, const Missing& missing) const;
 
 private:
-  struct Block {           // the bins of one tile that is owned or partly known
+  struct Block {           // the bins of one tile, which is owned or partly known
     std::size_t first_bin; // index into begin_, end_ and known_
-    int bits;              // 2^bits x 2^bits bins
-    bool complete;         // every bin known
+    int bits;              // the tile has 2^bits x 2^bits bins
+    bool complete;         // whether every bin of the tile is known
   };
   template <class Visit>
   void visit_complete(const Block& block, const Tile& tile, const FixedRect& part, const Visit& visit) const;
   template <class Visit, class Missing>
   void visit_row(BinRef first_bin, int bx0, int bx1, const Visit& visit, const Missing& missing) const;
-  /// A tile that is not owned, or an image of any tile.
+  /// A tile that is not owned, or a periodic image of any tile.
   struct Foreign {
     LocalIndex tile;
     std::int32_t image;
     LocalIndex block;
     auto key() const { return std::pair(tile, image); }
   };
-  /// Returns the index into blocks_, -1 if the tile is unknown. O(1) for owned tiles, otherwise O(log(known tiles)).
+  /// Returns the index into blocks_; -1 if the tile is unknown. Cost: O(1) for owned tiles, otherwise O(log(known
+  /// tiles)).
   LocalIndex block_of(LocalIndex tile, std::int32_t image) const {
     if (image == 0 && tile >= first_tile_ && tile - first_tile_ < owned_blocks_)
       return tile - first_tile_;
@@ -121,7 +123,7 @@ void KnownBins::for_each_foreign(const Visit& visit) const {
 template <class Visit, class Missing>
 void KnownBins::for_each_near(geometry::Vec2 center, double reach, const Visit& visit, const Missing& missing) const {
   const FixedRect rect = grid_->rect_around(center, reach);
-  if (grid_->limits().contains(rect)) { // most squares lie in one tile
+  if (grid_->limits().contains(rect)) { // usually true: most squares lie in one tile
     const LocalIndex number = grid_->tile_at(rect.x0, rect.y0);
     const Tile& tile = grid_->tile(number);
     if (rect_of(tile).contains(rect)) {
@@ -150,7 +152,7 @@ void KnownBins::visit_complete(const Block& block, const Tile& tile, const Fixed
     visit(begin[row], end[row]); // the bins of a row are contiguous in memory
 }
 
-/// Visits the bins first_bin.bin + bx0 .. first_bin.bin + bx1 of one row of a tile that is partly known.
+/// Visits the bins first_bin.bin + bx0 .. first_bin.bin + bx1, which form a row of a partly known tile.
 template <class Visit, class Missing>
 void KnownBins::visit_row(BinRef first_bin, int bx0, int bx1, const Visit& visit, const Missing& missing) const {
   const LocalIndex block = block_of(first_bin.tile, first_bin.image);

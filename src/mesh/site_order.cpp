@@ -54,8 +54,8 @@ void SiteOrder::group(const TileGrid& grid, const Sites& sites, LocalIndex first
     for (std::ptrdiff_t item = n * part / parts; item < n * (part + 1) / parts; ++item)
       if (const LocalIndex i = static_cast<LocalIndex>(item); sites.stays(i)) {
         const LocalIndex tile = grid.tile_at(sites.home(i));
-        TRIME_ASSERT(tile >= first_tile_ && tile < last_tile_, "site of tile {} given to the owner of {}..{}", tile,
-                     first_tile_, last_tile_);
+        TRIME_ASSERT(tile >= first_tile_ && tile < last_tile_,
+                     "a site of tile {} was given to the owner of the tiles {}..{}", tile, first_tile_, last_tile_);
         visit(i, of_tile[tile - first_tile_]);
       }
   };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The order of the owned sites: by tile, then by bin, then by place.
+// Computes the order of the owned sites: by tile, then by bin, then by coordinates.
 #pragma once
 
 #include "core/thread_loop.hpp"
@@ -16,29 +16,32 @@
 
 namespace trime::mesh {
 
-/// Orders the sites of a bin by place. Of sites at one place the first is kept: the boundary site or the fixed point,
-/// otherwise the one that was pushed most often.
+/// Compares two sites of the same bin by coordinates. Of sites with equal coordinates, the first in this order is kept:
+/// a boundary site or a fixed point, otherwise the site that was pushed most often.
 bool precedes(const Site& a, const Site& b);
 
-/// @brief Finds the new order of sites in two steps, group() and sort(). Then for_each() shows where each site comes
-/// from, until forget() is called; after that only the number of sites of each tile is known.
+/// @brief Finds the new order of sites in two steps, group() and sort(). After that, for_each() gives the old index of
+/// each site until forget() is called; afterwards only the number of sites in each tile is known.
 ///
-/// `Sites` is one of the classes of mesh/site_sources.hpp.
+/// The type `Sites` is one of the classes in mesh/site_sources.hpp.
 class SiteOrder {
 public:
   LocalIndex first_tile() const { return first_tile_; }
   LocalIndex last_tile() const { return last_tile_; }
 
-  /// Groups the sites by tile. @pre each lies in one of the tiles [first_tile, last_tile)
+  /// Groups the sites by tile.
+  /// @pre each site lies in one of the tiles [first_tile, last_tile)
   template <class Sites>
   void group(const TileGrid& grid, const Sites& sites, LocalIndex first_tile, LocalIndex last_tile);
   bool is_grouped() const { return !tile_start_.empty(); }
   /// Returns the number of sites that are grouped.
   LocalIndex grouped() const { return static_cast<LocalIndex>(order_.size()); }
-  /// See BinnedPoints::suitable_bin_bits. @pre these sites are grouped
+  /// Returns the suitable numbers of bins, as BinnedPoints::suitable_bin_bits.
+  /// @pre these sites are grouped
   std::vector<std::uint8_t> suitable_bin_bits(const TileGrid& grid, std::span<const Site> sites) const;
-  /// @brief Sorts the sites of each tile by bin, drops all but one at equal places, and sets the ranges of the bins.
-  /// Returns how many were dropped. @pre the same sites are grouped; bins.own() was called for these tiles
+  /// @brief Sorts the sites of each tile by bin, drops all but one of several sites at equal coordinates, and sets the
+  /// ranges of the bins. Returns how many sites were dropped.
+  /// @pre group() was called with these sites; bins.own() was called for these tiles
   template <class Sites>
   LocalIndex sort(const Sites& sites, KnownBins& bins);
 
@@ -52,12 +55,13 @@ public:
     const auto t = static_cast<std::size_t>(tile - first_tile_);
     return {kept_[t], kept_[t + 1]};
   }
-  /// Calls move(k, from) for the k-th site in the new order, which is the site `from` in the old one. Uses all threads.
+  /// Calls move(k, from) for each site: k is its index in the new order, `from` its old index. Uses all threads.
   template <class Move>
   void for_each(const Move& move) const;
-  /// Returns the index in the new order of each site before sorting, -1 if it was dropped.
+  /// Returns the new index of each site by its old index; -1 for dropped sites.
   void list_new_indices(LocalIndex before, std::vector<LocalIndex>& new_index) const;
-  /// Frees the list of old indices. @post of for_each and list_new_indices nothing may be asked
+  /// Frees the list of old indices.
+  /// @post for_each and list_new_indices must not be called
   void forget();
 
 private:
@@ -75,8 +79,9 @@ private:
   void drop_duplicates(const Sites& sites, LocalIndex first, KnownBins::TileBins bins, TileWork& work);
 
   LocalIndex first_tile_ = 0, last_tile_ = 0;
-  std::vector<LocalIndex> kept_; // first site of each tile in the new order, and the end
-  // While sites are sorted, order_ holds their old indices, and tile_start_ where each tile begins in it.
+  std::vector<LocalIndex> kept_; // index of the first site of each tile in the new order, and the end
+  // While sites are sorted, order_ contains their old indices, and tile_start_ the index in order_ at which each tile
+  // begins.
   std::vector<LocalIndex> tile_start_;
   UnsetVector<LocalIndex> order_;
 };

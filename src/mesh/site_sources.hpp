@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sites that SiteOrder sorts: a list, or the sites of a rank at their next places. A site is sorted into the tile
-// and bin of its home. Its home is its place, except when a checkpoint is restored.
+// The lists of sites that SiteOrder can sort: a list, or the sites of a rank at their next places. A site is sorted
+// into the tile and bin of its home. The home is the site's position, except when a checkpoint is restored.
 #pragma once
 
 #include "mesh/binned_points.hpp"
@@ -12,7 +12,7 @@ namespace trime::mesh {
 /// The sites of a list.
 class ListedSites {
 public:
-  static constexpr bool drops_equal = true; ///< only one of several sites at one place is kept
+  static constexpr bool drops_equal = true; ///< if several sites lie at one place, only one is kept
   explicit ListedSites(std::span<const Site> sites) : sites_(sites) {}
   LocalIndex size() const { return static_cast<LocalIndex>(sites_.size()); }
   bool stays(LocalIndex) const { return true; }
@@ -26,12 +26,12 @@ private:
   std::span<const Site> sites_;
 };
 
-/// Sites of a list that have moved since they were sorted into tiles, and that return to these tiles. Two sites that
-/// have met since then are both kept, as in an uninterrupted run, which drops one of them only when it sorts next.
+/// A list of sites that have moved since they were sorted into tiles, and that return to these tiles. If two sites have
+/// met since then, both are kept, because an uninterrupted run drops one of them only at its next sorting.
 class HomedSites : public ListedSites {
 public:
   static constexpr bool drops_equal = false;
-  /// @param homes for each site, a place in the tile to which it belongs
+  /// @param homes for each site, a point in the tile to which it belongs
   HomedSites(std::span<const Site> sites, std::span<const geometry::Vec2> homes) : ListedSites(sites), homes_(homes) {}
   geometry::Vec2 home(LocalIndex i) const { return homes_[at(i)]; }
 
@@ -39,11 +39,11 @@ private:
   std::span<const geometry::Vec2> homes_;
 };
 
-/// The owned sites at their next places, except those that are gone, and after them new ones.
+/// The owned sites at their next places, except removed ones, followed by new sites.
 class MovedSites {
 public:
   static constexpr bool drops_equal = true;
-  /// @param gone 1 for each owned site that is gone, by local index; empty if none is
+  /// @param gone 1 for each owned site that is removed, by local index; empty if no site is removed
   MovedSites(const BinnedPoints& points, std::span<const std::uint8_t> gone, std::span<const Site> more)
       : points_(points), next_positions_(points.next().positions()), next_leads_(points.next().leads()), gone_(gone),
         more_(more), owned_(points.owned()), has_leads_(points.has_leads()) {}

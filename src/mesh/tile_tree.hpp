@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tiles of a container: squares of a quadtree, numbered along a Hilbert curve.
+// Finds the tile at a point of the container. Tiles are squares of a quadtree, numbered along a Hilbert curve.
 #pragma once
 
 #include "core/hilbert.hpp"
@@ -11,18 +11,20 @@
 
 namespace trime::mesh {
 
-/// A square of the quadtree with its bins, in fixed-point positions of the square of the curve (2^32 a side).
+/// A square of the quadtree with its bins. The place and the size of a tile are fixed-point numbers in a square with
+/// 2^32 positions along each side.
 struct Tile {
-  std::uint32_t x, y; ///< its first positions, multiples of its side
-  std::uint8_t shift; ///< its side is 2^shift, at most 2^31
-  std::uint8_t bits;  ///< it has 2^bits x 2^bits bins
+  std::uint32_t x, y; ///< lowest positions of the tile, multiples of its side
+  std::uint8_t shift; ///< the side of the tile is 2^shift positions, at most 2^31
+  std::uint8_t bits;  ///< the tile has 2^bits x 2^bits bins
 
   std::int64_t side() const { return std::int64_t{1} << shift; }
   int level() const { return 32 - shift; }
-  /// The side of a bin is 2^bin_shift().
+  /// Returns the base-2 logarithm of the side of a bin.
   int bin_shift() const { return shift - bits; }
   int bins() const { return 1 << (2 * bits); }
-  /// First and last column of bins that meet positions x0 .. x1; first and last row for y0 .. y1.
+  /// Return the first and the last column of bins that meet the positions x0 .. x1, and the first and the last row for
+  /// y0 .. y1.
   int first_column(std::int64_t x0) const { return static_cast<int>(std::max<std::int64_t>(0, x0 - x) >> bin_shift()); }
   int last_column(std::int64_t x1) const { return static_cast<int>(std::min(side() - 1, x1 - x) >> bin_shift()); }
   int first_row(std::int64_t y0) const { return static_cast<int>(std::max<std::int64_t>(0, y0 - y) >> bin_shift()); }
@@ -35,7 +37,7 @@ inline Tile tile_of(const CurveSquare& square, int bits) {
   return {square.x << shift, square.y << shift, static_cast<std::uint8_t>(shift), static_cast<std::uint8_t>(bits)};
 }
 
-/// The positions x0 .. x1, y0 .. y1, both ends included.
+/// A rectangle of the positions x0 .. x1 and y0 .. y1, with both ends included.
 struct FixedRect {
   std::int64_t x0, y0, x1, y1;
 
@@ -54,12 +56,13 @@ inline FixedRect rect_of(const Tile& tile) {
 }
 
 /// @brief Finds the tile at a position. Tiles are squares that cover a rectangle without overlap, in the order of the
-/// curve. A directory of equal cells leads to a tile, or to a tree where tiles are smaller than a cell. Each tile takes
-/// 12 bytes, and 4 to 16 bytes of the directory.
+/// Hilbert curve. A table of equal cells leads to a tile, or to a tree if the tiles there are smaller than a cell.
+/// Memory: 12 bytes for each tile, and 4 to 16 bytes in the table.
 class TileTree {
 public:
   TileTree() = default;
-  /// @param limits the rectangle that the tiles cover; each tile meets it @param tiles in the order of the curve
+  /// @param limits the rectangle that the tiles cover; each tile meets it
+  /// @param tiles in the order of the Hilbert curve
   TileTree(const FixedRect& limits, std::vector<Tile> tiles);
 
   std::size_t memory_bytes() const {
@@ -70,14 +73,16 @@ public:
   const Tile& operator[](LocalIndex tile) const { return tiles_[static_cast<std::size_t>(tile)]; }
   void set_bits(LocalIndex tile, std::uint8_t bits) { tiles_[static_cast<std::size_t>(tile)].bits = bits; }
 
-  /// Returns the tile at a position. @pre the position lies within the limits
+  /// Returns the tile at a position.
+  /// @pre the position lies within the limits
   LocalIndex find(std::uint32_t x, std::uint32_t y) const {
     std::int32_t entry = directory_[cell(x >> cell_shift_, y >> cell_shift_)];
     for (int shift = cell_shift_ - 1; entry < 0; --shift)
       entry = children_[child(entry, x >> shift & 1, y >> shift & 1)];
     return entry;
   }
-  /// Calls visit(tile) for all tiles that meet a rectangle, each once. @pre the rectangle is within the limits
+  /// Calls visit(tile) once for each tile that meets a rectangle.
+  /// @pre the rectangle is within the limits
   template <class Visit>
   void for_each_in(const FixedRect& rect, const Visit& visit) const;
 
@@ -98,8 +103,8 @@ private:
   int cell_shift_ = 31;
   std::uint32_t first_column_ = 0, first_row_ = 0;
   std::size_t columns_ = 0, rows_ = 0;
-  std::vector<std::int32_t> directory_; // for each cell, a tile, or ~(index of four children)
-  std::vector<std::int32_t> children_;  // as directory_; four for each square that is divided
+  std::vector<std::int32_t> directory_; // for each cell, a tile, or the bitwise complement of an index into children_
+  std::vector<std::int32_t> children_;  // entries as in directory_; four for each square that is divided
 };
 
 template <class Visit>
@@ -113,7 +118,8 @@ void TileTree::for_each_in(const FixedRect& rect, const Visit& visit) const {
                        rect, visit);
         continue;
       }
-      const Tile& tile = tiles_[static_cast<std::size_t>(entry)]; // visited only from its first cell of the rectangle
+      const Tile& tile =
+          tiles_[static_cast<std::size_t>(entry)]; // a tile is visited only from its first cell in the rectangle
       if (column == column_of(std::max<std::int64_t>(rect.x0, tile.x)) &&
           row == column_of(std::max<std::int64_t>(rect.y0, tile.y)))
         visit(entry);

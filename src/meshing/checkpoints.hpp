@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The interface through which a run has its checkpoints kept, and the state that a run needs to continue as if nothing
-// had happened, except its sites. Whatever follows from the config alone is computed again: sizes, boundary, layout.
+// The interface through which a run writes its checkpoints, and the state from which a run continues without a change
+// of its result. Checkpoints contain this state and the sites; sizes, boundary and layout follow from the config, and
+// are computed again.
 #pragma once
 
 #include "core/state_fields.hpp"
@@ -14,25 +15,25 @@
 
 namespace trime::meshing {
 
-/// State that is the same on every rank.
+/// The part of the state that is the same on every rank.
 struct RunState {
-  StateNumbers numbers; ///< numbers of the classes that have a function visit()
+  StateNumbers numbers; ///< numbers of all classes that have a function visit()
   std::vector<sweep::SweepRecord> history;
 };
 
-/// A run that was read from a checkpoint. All members are the same on every rank, and so are the sites that `load`
-/// gives for the same arguments.
+/// A run that was read from a checkpoint. All members are the same on every rank. For the same arguments, `load`
+/// returns the same sites on every rank.
 struct SavedRun {
   RunState state;
   sites::SavedTiles tiles;
   sites::SiteLoader load;
 };
 
-/// What a rank wants at the end of a sweep. If ranks have different wishes, the last of them in this list counts.
+/// What a rank requests at the end of a sweep. If ranks have different requests, the one latest in this list counts.
 enum class CheckpointWish : int {
   none,
-  write, ///< write, then continue
-  stop,  ///< write, then stop
+  write, ///< write a checkpoint, then continue
+  stop,  ///< write a checkpoint, then stop
 };
 
 /// Thrown on all ranks together when the run has stopped at a checkpoint (exit code 75).
@@ -41,20 +42,23 @@ public:
   explicit StoppedAtCheckpoint(const std::string& message) : Error(ExitCode::checkpointed, message) {}
 };
 
-/// @brief Decides when checkpoints are written, and writes them. It must not change the mesh.
+/// @brief Decides when checkpoints are written, and writes them. A class that implements this interface must not change
+/// the mesh.
 class Checkpoints {
 public:
   virtual ~Checkpoints() = default;
-  /// Returns the wish of this rank. Each rank calls it once per sweep.
+  /// Returns the request of this rank. Each rank calls it once per sweep.
   virtual CheckpointWish wish() = 0;
-  /// Returns the common wish of all ranks before the clean-up; it is the last question for a wish. Collective.
-  /// @param stands true if the run has just been restarted from a checkpoint of this moment; then none is written, or
-  /// the run would never get beyond it
-  /// @throws StoppedAtCheckpoint if there is a checkpoint, and a signal has asked to stop
+  /// Returns the common request of all ranks before the clean-up, after which no checkpoint can be requested.
+  /// Collective.
+  /// @param stands true if the run has just been restarted from a checkpoint of this moment. Then none is written,
+  /// because the run would stop here at each restart
+  /// @throws StoppedAtCheckpoint if a checkpoint of this moment exists, and a signal has asked to stop
   virtual CheckpointWish wish_before_cleanup(bool stands) = 0;
-  /// @brief Writes a checkpoint. Collective. @param activity see SavedTiles, of the owned tiles
-  /// @throws StoppedAtCheckpoint if the wish was to stop and the checkpoint was written; otherwise the run continues
-  /// @throws FileError if there is no checkpoint, and a signal ends the run
+  /// @brief Writes a checkpoint. Collective.
+  /// @param activity activity of the owned tiles, see SavedTiles
+  /// @throws StoppedAtCheckpoint if the checkpoint was written and the request was to stop; otherwise the run continues
+  /// @throws FileError if the checkpoint could not be written, and a signal ends the run
   virtual void write(CheckpointWish wish, const RunState& state, const sites::SiteState& sites,
                      std::span<const std::uint64_t> activity) = 0;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The boundary that is meshed: that of the shape, with what the run adds to it and takes from it; and an estimate of
-// what a run will do to the shape.
+// The boundary that is meshed: the boundary of the shape, with fixed points as corners and without dropped loops. Also
+// estimates how a run will simplify the boundary.
 #pragma once
 
 #include "boundary/fixed_points.hpp"
@@ -14,20 +14,22 @@
 
 namespace trime::meshing {
 
-/// Owns the boundary of a run. Fixed points on it become corners, and loops for which the mesh is too coarse are
-/// dropped.
+/// Owns the boundary of a run. Fixed points on the boundary become corners, and loops that are too small for the
+/// triangles are dropped.
 class MeshedBoundary {
 public:
-  /// @throws GeometryError, see FixedPoints
+  /// Makes the boundary.
+  /// @throws GeometryError under the conditions of the constructor of FixedPoints
   explicit MeshedBoundary(const RunContext& run);
 
-  /// Records that a stage was laid out on `curves` (null: those of the shape) without the loops in `dropped`.
+  /// Notes that a stage has placed its sites on `curves` (null: the curves of the shape) without the loops in
+  /// `dropped`.
   void follow(std::shared_ptr<const geometry::Boundary> curves, const polygon::DroppedLoops& dropped);
 
   /// Returns the curves on which the boundary sites of the stage lie.
   const geometry::Boundary& curves() const { return drops_loops_ ? remaining_ : laid(); }
   const boundary::FixedPoints& fixed() const { return fixed_; }
-  /// Returns the loops of a mesh whose boundary is this polygon.
+  /// Returns the loops of a mesh whose boundary sites are `polygon`.
   std::vector<polygon::LoopSummary> loops(const polygon::BoundarySites& polygon) const;
 
 private:
@@ -35,12 +37,12 @@ private:
 
   boundary::FixedPoints fixed_;
   std::shared_ptr<const geometry::Boundary>
-      laid_;                     // null if the curves are those of the shape, with corners at fixed points
-  geometry::Boundary remaining_; // the curves without the dropped loops; unused if none was dropped
+      laid_;                     // null if the curves are those of the shape with corners at fixed points
+  geometry::Boundary remaining_; // the curves without the dropped loops; unused if no loop was dropped
   bool drops_loops_ = false;
 };
 
-/// See Mesher::outlook. Collective.
+/// Estimates how a run will simplify the boundary, see Mesher::outlook. Collective.
 Outlook look_ahead(const RunContext& run);
 
 } // namespace trime::meshing

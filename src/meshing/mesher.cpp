@@ -158,7 +158,7 @@ void Run::check_input(const SavedRun& saved) const {
                                   "{:016x}; an input file or the program has changed since; start from the beginning",
                                   what, static_cast<std::uint64_t>(kept), static_cast<std::uint64_t>(now)));
   };
-  check(then.shape, input_.shape, "shape or other fixed points");
+  check(then.shape, input_.shape, "shape or with other fixed points");
   check(then.sizes, input_.sizes, "size");
 }
 
@@ -296,9 +296,9 @@ std::string Run::count_reason(GlobalId points) const {
     return {};
   if (!scheme_.shortage().empty())
     return scheme_.shortage();
-  return fmt::format(
-      "{} points were removed because they came too near to the boundary or to each other; the start left out the rest",
-      placed_ + cleanup_.inserted - cleanup_.deleted - points);
+  return fmt::format("{} points were removed because they came too near to the boundary or to each other; the "
+                     "remaining ones were left out at the start",
+                     placed_ + cleanup_.inserted - cleanup_.deleted - points);
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Translates the options of the mesher to the options of its parts.
+// Translates the options of the mesher to the options of the modules that it uses.
 #pragma once
 
 #include "cleanup/cleanup.hpp"

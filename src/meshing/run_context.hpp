@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The data that stay the same throughout a run.
+// The data that do not change during a run.
 #pragma once
 
 #include "meshing/plan.hpp"
@@ -14,7 +14,7 @@
 
 namespace trime::meshing {
 
-/// The input of a run, and the options of its parts. It keeps references.
+/// The input of a run, and the options of the modules that it uses. It keeps references.
 struct RunContext {
   RunContext(const comm::Communicator& communicator, const geometry::Domain& its_domain, const sizing::SizeField& size,
              const MeshOptions& mesh_options, Log& its_log, TimerTable& its_timers)
@@ -29,7 +29,7 @@ struct RunContext {
   const MeshOptions options;
   const fitting::FitOptions fit;
   const sweep::SweepOptions sweeps;
-  const geometry::Lattice& lattice; ///< lattice of the container
+  const geometry::Lattice& lattice; ///< coordinate lattice of the container
   Log& log;
   TimerTable& timers;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Checks that all ranks have the same input. Every rank evaluates shape and size itself, and different processors or
-// libraries might give different bits.
+// libraries could give different bits.
 #pragma once
 
 #include "trime/comm/communicator.hpp"
@@ -11,16 +11,16 @@
 
 namespace trime::meshing {
 
-/// Hashes of the domain, and of the sizes on its boundary.
+/// Hashes of the domain, and of the sizes at places on its boundary.
 struct InputHashes {
   std::int64_t shape = 0, sizes = 0;
 };
 
-/// @brief Checks that all ranks have the same domain and the same sizes at a thousand places on it. Also tests the
-/// arithmetic of each rank. Collective. O(pieces)
-/// @return the common hashes
-/// @throws InternalError on all ranks if they differ, because ranks would then wait for each other without end or fail
-/// the certificate; also throws the errors of the size field
+/// @brief Checks that all ranks have the same domain, and the same sizes at a thousand places on its boundary. Also
+/// tests the floating-point arithmetic of each rank. Collective. Cost: O(pieces).
+/// @return the hashes, which are the same on all ranks
+/// @throws InternalError on all ranks if the hashes differ. Otherwise ranks could wait for each other without end, or
+/// the certificate could fail. Also throws the errors of the size field
 InputHashes check_same_input(const geometry::Domain& domain, const sizing::SizeField& size,
                              const comm::Communicator& comm);
 

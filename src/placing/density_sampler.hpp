@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Samples the wanted density of sites, h^-2 up to a factor, as integer weights of small cells along the Hilbert curve.
+// Samples the wanted density of sites, which is proportional to h^-2, as integer weights of small cells along the
+// Hilbert curve.
 #pragma once
 
 #include "comm/agree.hpp"
@@ -21,34 +22,36 @@
 
 namespace trime::placing {
 
-/// @brief Divides a tile into cells in Hilbert order. A cell is divided into quarters while it should hold more than a
-/// quarter of a site, or a sixteenth near the boundary. Cells that do not touch the shape are left out. If only the
-/// integral is needed, cells may be `coarsening` times as wide. Cells are squares of the quadtree of the grid. They do
-/// not depend on the tiles, as long as no tile is smaller than a cell. Immutable, thread-safe.
+/// @brief Divides a tile into cells in the order of the Hilbert curve. A cell is divided into quarters while its weight
+/// is more than a quarter of a site, or more than a sixteenth near the boundary. Cells that do not touch the shape are
+/// left out. If only the integral of the density is needed, cells may be `coarsening` times as wide. Cells are squares
+/// of the quadtree of the grid. The cells do not depend on the tiles, as long as no tile is smaller than a cell.
+/// Immutable, thread-safe.
 class DensitySampler {
 public:
-  static constexpr double weight_unit = 0x1p20; ///< integer weight of one site
+  static constexpr double weight_unit = 0x1p20; ///< the integer weight that stands for one site
 
-  /// @param most_in_part [sites] the sampling of a part ends when it has this many
+  /// @param most_in_part [sites] the sampling of a part of a tile ends when it has this weight
   DensitySampler(const mesh::TileGrid& grid, const polygon::BoundaryGuard& guard, const sizing::SizeField& size,
                  const geometry::Lattice& lattice, double coarsening = 1, double most_in_part = INFINITY)
       : grid_(grid), guard_(guard), size_(size), lattice_(lattice),
         most_inside_(PlacingRules::sites_in_cell * coarsening * coarsening),
         most_near_(PlacingRules::sites_in_cell_near * coarsening * coarsening), most_in_part_(most_in_part) {}
 
-  /// A leaf with a weight.
+  /// A cell that is not divided, with its weight.
   struct Cell {
     geometry::Box box;
-    std::uint64_t key; ///< identifies the cell together with its level
+    std::uint64_t key; ///< identifies the cell among cells of its level
     int level;
-    double size;         ///< h in the middle of the cell
-    std::int64_t weight; ///< number of sites that it should hold, in units of 2^-20
+    double size;         ///< target edge length h at the centre of the cell
+    std::int64_t weight; ///< number of sites that belong into the cell, in units of 2^-20
   };
-  /// Tiles are sampled in parts, because there may be fewer tiles than threads.
+  /// Number of parts of a tile that threads sample separately, because there may be fewer tiles than threads.
   static constexpr int parts_per_tile() { return 1 << (2 * part_levels); }
-  /// Calls visit(cell) for all cells with a weight of a part of the tile, in Hilbert order. Parts have this order, too.
-  /// @throws GeometryError on this rank alone, if the size at a place in the shape is not positive and finite, or is so
-  /// small that the part would get more than 2^27 cells
+  /// Calls visit(cell) for all cells with a weight in a part of the tile, in the order of the Hilbert curve. The parts
+  /// have this order, too.
+  /// @throws GeometryError on this rank alone, if the size at a place in the shape is not positive and finite, or so
+  /// small that the part would have more than 2^27 cells
   template <class Visit>
   void for_each_cell(LocalIndex tile, int part, const Visit& visit) const {
     CurveSquare square = grid_.tile(tile).on_curve();
@@ -59,15 +62,16 @@ public:
   }
 
 private:
-  static constexpr int part_levels = 1; // number of levels below a tile
-  /// Returns the least level of cells. Every bin of the typical density is sampled, because sizes may jump, and no cell
-  /// lies partly outside the container.
+  static constexpr int part_levels = 1; // number of quadtree levels between a tile and its parts
+  /// Returns the coarsest level of cells. This level is fine enough to sample every bin of the typical density, because
+  /// sizes may jump, and no cell of this level lies partly outside of the container.
   int least_level() const {
     return std::max({grid_.unit_level(), grid_.typical_level() + grid_.typical_bin_bits() + 1,
                      grid_.typical_level() + part_levels});
   }
 
-  /// The chords nearer to a part than `reach`, as a range of Work::chords. If `reach` is negative, they are not known.
+  /// The boundary edges (chords) nearer to a part than `reach`, as a range of Work::chords. A negative `reach` means
+  /// that they are not known.
   struct NearChords {
     std::size_t first = 0, last = 0;
     double reach = -1;
@@ -75,22 +79,24 @@ private:
   struct Part {
     CurveSquare square;
     geometry::Box box;
-    bool clear;      ///< a larger part around it lies inside and does not touch the boundary or its
-                     // /< PlacingRules::density_strip
-    NearChords near; ///< chords near the part that it is a quarter of
+    bool clear; ///< whether a larger part around this one lies inside the shape and does not touch the boundary or the
+                ///< strip along it (PlacingRules::density_strip)
+                // /< PlacingRules::density_strip
+    NearChords near; ///< chords near the part that was divided to give this one
   };
   struct Work {
     std::int64_t cells = 0;
-    double sites = 0;               ///< sites of the leaves in the container so far
-    std::vector<LocalIndex> chords; ///< a stack: the chords of a part lie above those of the larger parts around it
+    double sites = 0; ///< weight in sites of the cells in the container so far
+    std::vector<LocalIndex>
+        chords; ///< a stack: the chords near a part lie above the chords near the larger parts around it
   };
 
   static double half_diagonal(const geometry::Box& box) {
     return 0.5 * std::sqrt(box.width() * box.width() + box.height() * box.height());
   }
 
-  /// @brief Returns the distance from the middle p of a part to the nearest chord, at most half of its diagonal plus
-  /// `free`. Leaves the chords that its quarters need in part.near.
+  /// @brief Returns the distance from the centre p of a part to the nearest chord, at most half of its diagonal plus
+  /// `free`. Stores the chords that its quarters need in part.near.
   double distance(Part& part, geometry::Vec2 p, double free, Work& work) const {
     const double half = half_diagonal(part.box), reach = half + free;
     const double far = guard_.distance_below(p, reach);
@@ -115,7 +121,8 @@ private:
     return nearest < reach * reach ? std::sqrt(nearest) : reach;
   }
 
-  /// Returns the chords of the tree, if they are few. In a periodic container their images are left to the guard.
+  /// Returns the chords in the search structure, if they are few. In a periodic container nothing is returned, because
+  /// the guard also knows the periodic images.
   NearChords collect(const geometry::Box& box, double reach, Work& work) const {
     const geometry::Vec2 margin{reach * (1 + 1e-9), reach * (1 + 1e-9)};
     if (grid_.periods().any())
@@ -147,7 +154,8 @@ private:
     const bool inside = part.clear || guard_.inside(p);
     if (!valid && inside && grid_.container().contains(p))
       sizing::fail_for_size(p, h);
-    const double free = valid && inside ? PlacingRules::density_strip * h : 0; // outside the shape any value will do
+    const double free =
+        valid && inside ? PlacingRules::density_strip * h : 0; // outside of the shape the value is not used
     double to_boundary = INFINITY;
     bool clear = part.clear;
     if (!clear) {
@@ -187,17 +195,17 @@ private:
   const polygon::BoundaryGuard& guard_;
   const sizing::SizeField& size_;
   const geometry::Lattice& lattice_;
-  double most_inside_, most_near_; // largest number of sites in a leaf
-  double most_in_part_;            // sites
+  double most_inside_, most_near_; // largest weight of a cell, in sites
+  double most_in_part_;            // in sites
 };
 
-/// Calls body(item) for all items, by all threads. If a size field throws, all ranks throw the error. Collective.
+/// Calls body(item) for all items on all threads. If a size field throws, all ranks throw the error. Collective.
 template <class Body>
 void agreed_loop(const comm::Communicator& comm, std::ptrdiff_t n, const Body& body) {
   comm::run_agreed(comm, [&] { thread_loop(n, 1, [&](std::ptrdiff_t item, int) { body(item); }); });
 }
 
-/// The parts of the tiles of this rank, in Hilbert order.
+/// All parts of the tiles of this rank, in the order of the Hilbert curve.
 struct DensityParts {
   const mesh::TileRange& tiles;
   const DensitySampler& sampler;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes inner sites along the Hilbert curve. Each rank makes the sites of its tiles. The set of sites does not depend
-// on the ranks.
+// Places inner sites along the Hilbert curve. Each rank makes the sites of its tiles. The set of all sites does not
+// depend on the number of ranks.
 #pragma once
 
 #include "mesh/binned_points.hpp"
@@ -15,22 +15,23 @@
 
 namespace trime::placing {
 
-/// @brief Places sites at quantiles of the integral of h^-2 along the Hilbert curve, outside a strip of 0.43 h along
-/// the boundary: site j is where the integral reaches (j + 1/2) / n of its total. Weights are integers, so the sites
-/// are the same on any number of ranks. The number of sites in any interval of the curve is right to within one, so the
-/// density has no errors of long wave length.
+/// @brief Places n sites along the Hilbert curve at equal shares of the integral of h^-2: site j lies where the
+/// integral reaches (j + 1/2) / n of its total. A strip of 0.43 h along the boundary stays empty. Weights are integers,
+/// so the sites are the same on any number of ranks. The number of sites in any interval of the curve is correct to
+/// within one, so the density is also correct over long distances.
 class HilbertStart {
 public:
-  /// @brief Computes the integral. Collective (one scan). @pre all arguments outlive this object
-  /// @param expected about the number of sites that will be asked for; if it is small, the cells of the integral are
-  /// kept
-  /// @param coarsening factor on the width of the cells of the integral, which otherwise hold a quarter of a site, and
+  /// @brief Computes the integral. Collective (one scan over the ranks).
+  /// @pre all arguments outlive this object
+  /// @param expected approximate number of sites that will be requested; if it is small, the cells of the integral are
+  /// kept in memory
+  /// @param coarsening factor for the width of the cells of the integral; with 1 a cell holds a quarter of a site, and
   /// less near the boundary
   HilbertStart(const comm::Communicator& comm, const mesh::TileRange& tiles, const polygon::BoundaryGuard& guard,
                const sizing::SizeField& size, const geometry::Lattice& lattice, double expected, double coarsening = 1);
   ~HilbertStart();
 
-  /// Returns the number of sites that the size asks for, over all ranks.
+  /// Returns the number of sites that the size field asks for, over all ranks.
   double wanted() const;
   /// Returns the sites of this rank. Collective.
   /// @param n number of sites over all ranks

@@ -150,12 +150,12 @@ void BoundaryChain::check(std::span<const BoundaryEdit> edits) const {
       throw InternalError(fmt::format("{}, at ({}, {})", what, edit.position.x, edit.position.y));
     };
     if (is_gone_[at(edit.site)])
-      fail("a change of a boundary site that is gone");
+      fail("there is a change of a boundary site that was removed before");
     if (k == 0 || edits[k - 1].site != edit.site)
       continue;
     const BoundaryEdit& other = edits[k - 1];
     if (edit.kind != EditKind::insert || edit.patch != other.patch || edit.arc == other.arc)
-      fail("two changes of one boundary site or chord");
+      fail("there are two changes of the same boundary site or boundary edge");
   }
 }
 

@@ -1,6 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Keeps interior sites away from the boundary: finds out whether a site has left the polygon of chords or entered the
-// diametral disc of a chord, and where to push it. It does not move, delete or count sites itself.
+// SPDX-License-Identifier: BSD-3-Clause Finds out whether an inner site has left the polygon of boundary edges (chords)
+// or entered the diametral circle of a chord, and to which place the site must be pushed. The guard does not move,
+// delete or count sites itself.
 #pragma once
 
 #include "polygon/disc_cells.hpp"
@@ -15,55 +15,58 @@
 
 namespace trime::polygon {
 
-/// @brief Queries about the polygon of chords between neighbouring boundary sites. Chord i goes from site i to its
-/// next.
+/// @brief Answers queries about the polygon of chords between neighbouring boundary sites. Chord i goes from boundary
+/// site i to the next one.
 ///
-/// A flat grid has about 64 cells per chord (at most 2^22). A cell that no disc touches stores whether it lies inside
-/// or outside, and its distance from the discs in cells. The other cells list the discs that reach into them. Far from
-/// the boundary every query reads one byte. Points must lie on the lattice of the sites. Immutable and thread-safe; O(B
-/// log B) to build, by all threads.
+/// A grid has about 64 cells per chord (at most 2^22). A cell that no diametral circle touches stores whether it lies
+/// inside or outside of the polygon, and its distance, in cells, from the nearest circle. The other cells list the
+/// circles that reach into them. Far from the boundary every query reads one byte. Points must lie on the coordinate
+/// lattice of the sites. Immutable and thread-safe; takes O(B log B) time to build for B sites, by all threads.
 ///
-/// In a periodic container queries accept any image of a point, and all images of the chords count. There, the chords
-/// and images that meet the container are closed to polygons outside it. Then the even-odd rule gives the inside, or
-/// the outside, of all points; the inner side of one chord shows which. Without sites, everything is inside.
+/// In a periodic container, queries accept any periodic image of a point, and all images of the chords count. The
+/// chords and images that meet the container are completed to closed polygons outside of it. Then the even-odd rule
+/// separates inside from outside; the inner side of one chord shows which is which. Without sites, every point is
+/// inside.
 class BoundaryGuard {
 public:
   BoundaryGuard(const BoundarySites& sites, const geometry::Lattice& lattice);
 
-  /// Returns whether p lies inside the polygon of chords. Exact; on the boundary itself, the perturbation of
-  /// SegmentGrid decides.
+  /// Returns whether p lies inside the polygon of chords. Exact; for a point on the boundary, the symbolic perturbation
+  /// of SegmentGrid decides.
   bool inside(geometry::Vec2 p) const;
   /// Returns the distance to the nearest chord, at most `reach`.
   double distance(geometry::Vec2 p, double reach) const;
-  /// Returns a lower bound of the distance, at most `reach`, by one look-up. @pre p lies in the container
+  /// Returns a lower bound on the distance to the nearest chord, at most `reach`, by one look-up.
+  /// @pre p lies in the container
   double distance_below(geometry::Vec2 p, double reach) const { return std::min(reach, clear_way(p)); }
-  /// @brief Returns the place to which an interior site at p must move, or nothing if p is inside and in no closed
-  /// diametral disc.
+  /// @brief Returns the place to which an inner site at p must move; nothing if p is inside and in no closed diametral
+  /// circle.
   ///
-  /// The chord is the one in whose disc p lies deepest (relative to its radius), or the nearest one if p is outside.
-  /// The new place is PolygonRules::push_way chord lengths from the middle of the chord. It lies towards p if this
-  /// direction makes at least 30 degrees with the chord on its inner side and leads to a good place, otherwise along
-  /// the inner normal. Near sharp notches it may be a bad place itself. The search for the nearest chord begins with
-  /// the local size h. The result depends only on p and the sites; in a periodic container it is the image next to p.
+  /// The site is moved away from one chord: the chord in whose diametral circle p lies deepest (relative to its
+  /// radius), or the nearest chord if p is outside. The new place is PolygonRules::push_way chord lengths away from the
+  /// middle of the chord. The direction to the new place is that of p if this points inside, makes at least 30 degrees
+  /// with the chord and leads to a good place; otherwise it is the inner normal. Near sharp notches the new place may
+  /// be bad itself. The search for the nearest chord begins with the local size h. The result depends only on p and the
+  /// boundary sites; in a periodic container it is the image next to p.
   std::optional<geometry::Vec2> correct(geometry::Vec2 p, double h, const geometry::Lattice& lattice) const;
   /// Returns whether `correct` returns a place for p.
   bool pushes(geometry::Vec2 p) const;
-  /// Returns true if `correct` certainly returns nothing for p, as for most places. One look-up.
+  /// Returns true if `correct` certainly returns nothing for p, which is the case for most places. Cost: one look-up.
   bool is_clear(geometry::Vec2 p) const { return state_at(periods_.wrap(p)) > 0; }
-  /// Returns whether p lies outside, strictly inside a diametral disc, or nearer to a chord than
+  /// Returns whether p lies outside, strictly inside a diametral circle, or nearer to a chord than
   /// PolygonRules::near_chord.
   bool encroaches(geometry::Vec2 p) const;
 
   GuardCells cells() const;
 
-  /// The chords by site; in a periodic container, those images whose middles are canonical.
+  /// Returns the chords, by boundary site; in a periodic container, the images whose middles lie in the container.
   const geometry::SegmentGrid& chords() const { return chords_; }
   std::size_t memory_bytes() const;
 
 private:
-  static constexpr std::int8_t near_disc = 0; ///< state of a cell that a disc may reach into
+  static constexpr std::int8_t near_disc = 0; ///< state of a cell into which a diametral circle may reach
 
-  /// A chord or an image of one.
+  /// A chord or a periodic image of a chord.
   struct NearChord {
     geometry::Segment chord;
     double squared_distance;
@@ -72,7 +75,7 @@ private:
   geometry::Box choose_cells();
   void add_images(const geometry::Box& window);
   void close_chords(const geometry::Box& window, const geometry::Lattice& lattice);
-  // The queries work on canonical points.
+  // The following queries take canonical points.
   bool inside_polygon(geometry::Vec2 p) const;
   std::optional<NearChord> nearest(geometry::Vec2 p, double reach) const;
   const geometry::Segment& disc(LocalIndex k) const {
@@ -84,20 +87,21 @@ private:
   std::vector<std::uint8_t> clearance_of(int low, int high) const;
   void classify_row(int j, const std::uint8_t* clearance, const geometry::Lattice& lattice);
   int state_at(geometry::Vec2 p) const;
-  /// Returns a distance within which there is no chord.
+  /// Returns a distance from p within which no chord lies.
   double clear_way(geometry::Vec2 p) const;
-  /// Returns the number (see disc()) of the closed diametral disc in which p lies deepest, the lowest of equals; -1 if
-  /// p lies in none.
+  /// Returns the number (see disc()) of the closed diametral circle in which p lies deepest, the lowest number of
+  /// equally deep ones; -1 if p lies in none of them.
   LocalIndex deepest_disc(geometry::Vec2 p) const;
 
   geometry::Periods periods_;
-  geometry::SegmentGrid chords_;          // each at the image whose middle is canonical
-  std::vector<geometry::Segment> images_; // images of chords whose discs reach into the container
-  geometry::SegmentGrid closed_; // chords and images, closed outside the container; for periodic containers only
-  bool inverted_ = false;        // true if the inside of the shape is the outside of closed_
+  geometry::SegmentGrid chords_;          // each as the periodic image whose middle lies in the container
+  std::vector<geometry::Segment> images_; // images of chords whose diametral circles reach into the container
+  geometry::SegmentGrid
+      closed_; // chords and images, completed to closed polygons outside of the container; for periodic containers only
+  bool inverted_ = false; // whether the inside of the shape is the outside of closed_
   DiscCells cells_;
   std::vector<std::int8_t> state_; // by cell: positive inside, negative outside; the absolute value is the number of
-                                   // cells to the next near_disc cell
+                                   // cells to the next cell with a circle
 };
 
 } // namespace trime::polygon

@@ -135,8 +135,9 @@ std::int32_t part_in_the_middle(const Loop& loop, const BoundarySite& a, const B
 }
 
 void assert_same_loops(const geometry::Boundary& boundary, const BoundarySites& sites) {
-  TRIME_ASSERT(sites.loop_start.size() == boundary.loops.size() + 1, "{} loops of sites, {} of the boundary",
-               sites.loop_start.size(), boundary.loops.size() + 1);
+  TRIME_ASSERT(sites.loop_start.size() == boundary.loops.size() + 1,
+               "the boundary sites have {} loops, but the boundary has {}", sites.loop_start.size(),
+               boundary.loops.size() + 1);
 }
 
 } // namespace

@@ -175,7 +175,8 @@ Landing land(Vec2 p, const Box& window, const Box& around) {
     return {3, -p.y, {around.min.x, p.y}};
   if (p.x > window.max.x)
     return {1, p.y, {around.max.x, p.y}};
-  TRIME_ASSERT(p.y < window.min.y || p.y > window.max.y, "a loose end at ({}, {}) inside the window", p.x, p.y);
+  TRIME_ASSERT(p.y < window.min.y || p.y > window.max.y, "the segments have a loose end at ({}, {}) inside the window",
+               p.x, p.y);
   if (p.y < window.min.y)
     return {0, p.x, {p.x, around.min.y}};
   return {2, -p.x, {p.x, around.max.y}};

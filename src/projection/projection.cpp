@@ -148,10 +148,10 @@ std::string local_plane(std::span<const Vec2> degrees_east_north) {
     const std::array<double, 3> d = direction(p);
     const double cosine = d[0] * center[0] + d[1] * center[1] + d[2] * center[2];
     if (!(cosine >= sin_cos(farthest_degrees * degrees).cos))
-      throw GeometryError(
-          fmt::format("'projection = auto' needs a shape within {} degrees of its middle, which is at longitude {} and "
-                      "latitude {}; found a vertex at ({}, {}); set a projection by its name, such as EPSG:32633",
-                      farthest_degrees, east, north, p.x, p.y));
+      throw GeometryError(fmt::format(
+          "'projection = auto' needs a shape whose vertices are within {} degrees of its middle, which is at longitude "
+          "{} and latitude {}; found a vertex at ({}, {}); set a projection by its name, such as EPSG:32633",
+          farthest_degrees, east, north, p.x, p.y));
   }
   return fmt::format("+proj=stere +lat_0={} +lon_0={} +k=1 +x_0=0 +y_0=0 +datum=WGS84 +units=m +no_defs +type=crs",
                      north, east);

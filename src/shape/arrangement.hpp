@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The boundaries of several parts, cut at all their mutual crossings: pieces that meet at shared vertices only.
+// Cuts the boundaries of several parts at all their crossings. The resulting pieces meet only at common vertices.
 #pragma once
 
 #include "geometry/segment_tree.hpp"
@@ -14,35 +14,37 @@
 
 namespace trime::shape {
 
-/// One part in an arrangement, or one of its images in a periodic container.
+/// One part in an arrangement, or one of its periodic images.
 struct PlacedPart {
   const Part* part;
-  int index;            ///< its number in the region; -1 for a rectangle that only cuts the others
-  geometry::Vec2 shift; ///< shift of the image, on the lattice
+  int index;            ///< index of the part in the region; -1 for a rectangle that only cuts the others
+  geometry::Vec2 shift; ///< shift of the periodic image; a point of the coordinate lattice
 };
 
-/// @brief It is built once. O(M log M) for M pieces of any number of parts if few of them cross, also for long slanted
-/// spikes next to each other.
+/// @brief The arrangement of the boundaries, which the constructor computes. Cost: O(M log M) for M pieces of any
+/// number of parts if few of them cross, even for long slanted spikes next to each other.
 ///
-/// Crossings are snapped to the lattice; a crossing within VertexTable::merge_steps of a vertex becomes that vertex.
-/// Vertices of contours keep their exact coordinates. Coinciding pieces are kept once. A cutting rectangle must be the
-/// last part: it is crossed with the pieces of the others.
+/// Crossings are rounded to the coordinate lattice; a crossing within VertexTable::merge_steps of a vertex becomes that
+/// vertex. Vertices of contours keep their exact coordinates. Coinciding pieces are kept once. A cutting rectangle must
+/// be the last part: it is crossed with the pieces of all other parts.
 class Arrangement {
 public:
-  /// How near a vertex counts as lying on a curve, in lattice steps.
+  /// Distance, in lattice steps, within which a vertex counts as lying on a curve.
   static constexpr int on_curve_steps = 4;
 
-  /// A piece from vertex to vertex. It is straight, or runs counter-clockwise along a circle by at most a quarter turn.
+  /// A piece from vertex to vertex. A piece is straight, or runs counter-clockwise along a circle by at most a quarter
+  /// turn.
   struct Piece {
     LocalIndex from, to;
-    int circle;            ///< index into circles, -1 for straight pieces
-    int part;              ///< the interior of this part (its place in the list) lies on the left
-    LocalIndex first_twin; ///< further parts with this piece: twins first_twin .. first_twin + twin_count - 1
+    int circle;            ///< index into circles(); -1 for straight pieces
+    int part;              ///< position in the list of the part whose interior lies on the left
+    LocalIndex first_twin; ///< index into twins() of the other parts with the same piece: first_twin .. first_twin +
+                           ///< twin_count - 1
     LocalIndex twin_count;
   };
   struct Twin {
     int part;
-    bool along; ///< true if its interior is on the left, too; otherwise it is on the right
+    bool along; ///< true if the interior of this part is on the left; otherwise it is on the right
   };
 
   Arrangement(const std::vector<PlacedPart>& parts, const geometry::Frame& frame);
@@ -51,9 +53,9 @@ public:
   const std::vector<Twin>& twins() const { return twins_; }
   const std::vector<Circle>& circles() const { return circles_; }
   const VertexTable& vertices() const { return vertices_; }
-  /// Number of pairs of parts that were crossed with each other, as a measure of work.
+  /// Returns the number of pairs of parts that were crossed with each other, as a measure of work.
   std::int64_t pairs() const { return pairs_; }
-  /// Number of pairs of lines of two polygons, or of a line and a circle, that were examined.
+  /// Returns the number of examined pairs of lines of two polygons, or of a line and a circle.
   std::int64_t line_pairs() const { return line_pairs_; }
 
 private:
@@ -61,21 +63,22 @@ private:
     LocalIndex from, to;
     int part;
   };
-  /// The relation of two lines.
+  /// How two lines touch or cross each other.
   struct Contact {
-    std::array<bool, 4> on{}; ///< ends of the first line that lie on the second one, between its ends; and vice versa
+    std::array<bool, 4> on{}; ///< whether each end of the first line lies on the second line between its ends; then the
+                              ///< same for the ends of the second
     bool crossing = false;
     bool any() const { return on[0] || on[1] || on[2] || on[3] || crossing; }
   };
   enum class Place { apart, at_end, between };
-  /// Ways to find the lines near another one among those of a part.
+  /// The ways to find those lines of a part that are near a given line, with counts to choose between them.
   struct LineSearch {
-    std::int64_t lines = 0;     ///< lines and circles for which other lines were searched
-    std::int64_t looked_at = 0; ///< lines examined in the bins of the part
+    std::int64_t lines = 0;     ///< number of lines and circles for which near lines were searched
+    std::int64_t looked_at = 0; ///< number of lines that were examined in the bins of the part
     std::optional<geometry::SegmentTree> tree;
   };
   struct Split {
-    LocalIndex curve, vertex; // curve: a line, or lines_.size() + circle
+    LocalIndex curve, vertex; // a line, or lines_.size() plus the number of a circle
   };
 
   void add_polygon(std::size_t place);
@@ -101,7 +104,7 @@ private:
   geometry::Segment segment(LocalIndex line) const {
     return {vertices_.point(lines_[line].from), vertices_.point(lines_[line].to)};
   }
-  /// Returns the line shifted back to the grid of a part, which may be an image.
+  /// Returns the line shifted back to the coordinates of a part, which may be a periodic image.
   geometry::Segment moved_back(LocalIndex line, std::size_t part) const {
     return {segment(line).a - parts_[part].shift, segment(line).b - parts_[part].shift};
   }
@@ -111,8 +114,8 @@ private:
   const geometry::Frame& frame_;
   double tolerance_;
   VertexTable vertices_;
-  std::vector<Line> lines_;            // like the splits, used only until the pieces are made
-  std::vector<LocalIndex> first_line_; // first line of each polygon in parts_, unused for circles
+  std::vector<Line> lines_;            // used, like splits_, only until the pieces are made
+  std::vector<LocalIndex> first_line_; // index of the first line of each polygon in parts_; unused for circles
   std::vector<Circle> circles_;
   std::vector<std::vector<int>> circle_parts_;
   std::vector<Split> splits_;

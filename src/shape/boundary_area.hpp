@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Computes the area of a region from its loops, and refuses regions without area.
+// Computes the area of a shape from its loops, and refuses shapes without area.
 #pragma once
 
 #include "trime/geometry/boundary.hpp"
@@ -10,21 +10,23 @@
 
 namespace trime::shape {
 
-/// Returns twice the signed area between a chain of pieces and a point. For closed loops the point does not matter.
+/// Returns twice the signed area between a chain of pieces and a point. For closed loops the result does not depend on
+/// the point.
 double twice_area_under(const std::vector<geometry::Piece>& pieces, geometry::Vec2 origin);
 
-/// @brief Returns whether a loop is only a few lattice steps wide. Such slivers appear where sides of parts were meant
-/// to be equal; they are not features.
+/// @brief Returns whether a loop is only a few lattice steps wide. Such slivers appear where sides of two parts were
+/// meant to be equal, but differ by rounding; they are not features of the shape.
 bool is_sliver(const geometry::Loop& loop, double twice_area, const geometry::Frame& frame);
 
-/// @brief Computes the area of a region with unrolled loops on a torus. The areas under the loops add up to that of the
-/// region, except for multiples of the area of the torus. Also finds whether the region reaches around the torus both
-/// ways. @pre there are loops
+/// @brief Computes the area of a shape with unrolled loops on a torus. The sum of the areas under the loops is the area
+/// of the shape plus a multiple of the area of the torus. Also finds out whether the shape reaches around the torus in
+/// both directions.
+/// @pre there are loops
 void settle_area_on_torus(geometry::Boundary& boundary, double torus);
 
-/// @brief Checks that a region has an area. Loops that wind around a container can be slivers together: two that lie on
-/// each other enclose only rounding errors.
-/// @throws GeometryError for a region without a larger area, with its text and a place
+/// @brief Checks that a shape has an area. Two loops that wind around a container and coincide enclose only rounding
+/// errors.
+/// @throws GeometryError for a shape whose area is not larger than rounding errors, with its expression and a place
 void check_area(const geometry::Boundary& boundary, const std::string& region, const geometry::Frame& frame);
 
 } // namespace trime::shape

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes a checked polygon on the lattice from the rings of a contour.
+// Makes a checked polygon with vertices on the coordinate lattice from the rings of a contour.
 #pragma once
 
 #include "trime/contours/contour.hpp"
@@ -11,14 +11,15 @@
 
 namespace trime::shape {
 
-/// @brief Moves, snaps and checks the rings of a contour, and finds which side of each ring is inside.
-/// @param warnings receives a sentence for each ring with vertices that became equal on the lattice
-/// @throws GeometryError see Part::contour
+/// @brief Moves the rings of a contour, rounds them to the lattice, checks them, and finds which side of each ring is
+/// inside.
+/// @param warnings receives a sentence for each ring with vertices that became equal by rounding
+/// @throws GeometryError under the conditions of Part::contour
 Polygon make_contour_polygon(const contours::Contour& contour, const contours::Normalization& normalization,
                              const geometry::Frame& frame, std::vector<std::string>& warnings);
 
-/// @brief Makes a polygon from one ring that is known to be simple. @pre it has at least three vertices, which are not
-/// collinear
+/// @brief Makes a polygon from one ring that is known not to cross itself.
+/// @pre the ring has at least three vertices, which are not collinear
 Polygon make_simple_polygon(const std::vector<geometry::Vec2>& ring);
 
 } // namespace trime::shape

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes the boundary of the shape from the parts and the region.
+// Makes the boundary of the shape from its parts and the expression that joins them.
 #pragma once
 
 #include "trime/geometry/boundary.hpp"
@@ -12,18 +12,18 @@
 
 namespace trime::shape {
 
-/// @brief Makes the boundary of a region: cuts the boundaries of the parts at their crossings, and keeps the pieces
-/// with the region on one side only.
+/// @brief Makes the boundary of a shape: cuts the boundaries of the parts at their crossings, and keeps the pieces that
+/// have the inside of the shape on exactly one side.
 ///
-/// It uses no grid and no tracing. Crossings are computed to a lattice step, and everything else is combinatorial.
-/// Features smaller than a few lattice steps vanish. Loops are ordered by their lexicographically smallest start, where
-/// each begins; tags follow that order from 1. In a periodic container the region is where any image of its parts lies,
-/// and loops are unrolled (see Loop). Piece::part is an index into part_names: `parts`, then `domain` if the region has
-/// it. O(M log M) for M pieces.
-/// @throws GeometryError if the region is empty, leaves the container, or its boundary touches itself, or if a part
-/// sticks out of a periodic side by more than one period
+/// Crossings are computed to a lattice step; everything else is combinatorial, without a grid. Features smaller than a
+/// few lattice steps vanish. Loops are ordered by their lexicographically smallest start, where each begins; tags
+/// follow this order from 1. In a periodic container, the shape covers all places where a periodic image of its parts
+/// lies, and loops are unrolled (see Loop). Piece::part is an index into part_names, which are the names of `parts`,
+/// then `domain` if the expression contains it. Cost: O(M log M) for M pieces.
+/// @throws GeometryError if the shape is empty, leaves the container, or its boundary touches itself, or if a part
+/// extends beyond a periodic side by more than one period
 geometry::Domain make_boundary(const Region& region, std::span<const Part> parts, const geometry::Frame& frame);
-/// As above, but frees the parts before it makes loops, unless a periodic container or markers need them longer.
+/// Does the same, but frees the parts before loops are made, unless a periodic container or markers need them longer.
 geometry::Domain make_boundary(const Region& region, std::vector<Part>&& parts, const geometry::Frame& frame);
 
 } // namespace trime::shape

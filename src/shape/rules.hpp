@@ -10,31 +10,31 @@
 
 namespace trime::shape {
 
-/// Numbers for parts on the lattice.
+/// Numbers for parts whose coordinates are rounded to the coordinate lattice.
 struct ShapeRules {
-  /// [steps] If an edge touches or crosses another within this distance of a vertex, the vertex counts as lying on the
-  /// edge. Snapping moves each end by up to one step. Not measured.
+  /// [lattice steps] If an edge touches or crosses another within this distance of a vertex, the vertex counts as lying
+  /// on the edge. Rounding moves each end by up to one step. Not measured.
   static constexpr double on_edge = 2;
-  /// [steps] Distance by which touching rings are separated. At a touch with 64 steps, 4e-12 of the container's side,
-  /// triangles on both sides are as good as elsewhere (a largest alpha of 1.12 next to two touching squares). Not
-  /// measured.
+  /// [lattice steps] Distance by which touching rings are separated. With 64 steps, which are 4e-12 of the container's
+  /// side, triangles next to the touch are as good as elsewhere (a largest alpha of 1.12 next to two touching squares).
+  /// Not measured.
   static constexpr double touch_gap = 64;
-  /// [1] Where rings are separated, a vertex stays if the sine of half its angle is smaller than this and another
+  /// [1] Where rings are separated, a vertex stays if the sine of half its angle is below this number and another
   /// vertex can move. Not measured.
   static constexpr double sharp_sine = 0.1;
-  /// [1] Where rings are separated, a vertex moves into its sector along the bisector, or along a direction between the
-  /// bisector and one of the two edges, by these shares. The first direction that keeps it out of the discs of other
-  /// edges is used. Not measured.
+  /// [1] Where rings are separated, a vertex moves into its sector along the bisector (0), or along a direction between
+  /// the bisector and one of the two edges (1 or -1). These directions are tried in order; the first one that keeps the
+  /// vertex out of the diametral circles of other edges is used. Not measured.
   static constexpr std::array<double, 7> tried_directions{0, 0.5, -0.5, 0.75, -0.75, 0.9, -0.9};
-  /// [1] A vertex in a sharper tip moves no farther than one whose half angle has this sine. Not measured.
+  /// [1] A vertex in a sharper tip moves no farther than a vertex whose half angle has this sine. Not measured.
   static constexpr double least_sine = 1.0 / 64;
-  /// [segments] Size of the chunks in which meetings of segments are searched: the result does not depend on the
-  /// threads. Not measured.
+  /// [segments] Number of segments in a chunk, in which one thread searches meetings. The number is fixed, so that the
+  /// result does not depend on the number of threads. Not measured.
   static constexpr LocalIndex meeting_chunk = 2048;
-  /// [meetings] The search in a chunk ends at this number: it bounds the memory. Not measured.
+  /// [meetings] The search in a chunk ends after this number of meetings, which bounds the memory. Not measured.
   static constexpr std::size_t most_meetings = 8192;
-  /// [pairs] If the bins of the grid hold more pairs per segment, a tree is built, which costs about as much. Measured:
-  /// a ring of 10^6 segments is searched with bins in a quarter of the time.
+  /// [pairs] If the bins of the grid hold more pairs per segment than this, a search tree is built, which costs about
+  /// as much. Measured: the bins search a ring of 10^6 segments in a quarter of the time of the tree.
   static constexpr std::int64_t enough_pairs = 32;
 };
 

@@ -236,10 +236,10 @@ Polygon traced_polygon(const std::string& name, const contours::Contour& rings, 
   try {
     return make_contour_polygon(rings, {}, frame, unused);
   } catch (const GeometryError& error) {
-    throw GeometryError(fmt::format("part '{}': its traced boundary is not a set of simple curves; expected curves "
-                                    "that stay apart by more than 1e-6 of the container (vertex numbers stand in "
-                                    "place of lines: {})",
-                                    name, error.what()));
+    throw GeometryError(
+        fmt::format("part '{}': its traced boundary is not a set of simple curves; expected curves that stay apart by "
+                    "more than 1e-6 of the container (here vertices are numbered instead of lines: {})",
+                    name, error.what()));
   }
 }
 

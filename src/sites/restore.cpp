@@ -44,7 +44,8 @@ void SiteState::restore(const SavedTiles& saved, const SiteLoader& load, const s
   if (!fit(saved.tiles, grid_)) // the same on all ranks
     throw FileError(
         fmt::format("the {} tiles of the checkpoint do not fit the container of this run", saved.tiles.size()));
-  TRIME_ASSERT(state_ == State::empty || has_sites(), "sites of a checkpoint while others are on their way");
+  TRIME_ASSERT(state_ == State::empty || has_sites(),
+               "a checkpoint cannot be restored while ghosts are being received");
   state_ = State::empty; // those of the first layout go
   share_out(saved.tiles, saved.counts);
   check_counts(saved.counts);

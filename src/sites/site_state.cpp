@@ -78,13 +78,14 @@ int SiteState::halo_margin() const {
 }
 
 void SiteState::share_out(std::vector<mesh::Tile> tiles, std::span<const std::int64_t> weights) {
-  TRIME_ASSERT(state_ == State::empty, "tiles are shared out before there are sites");
+  TRIME_ASSERT(state_ == State::empty, "tiles can be shared out only before there are sites");
   grid_.set_tiles(std::move(tiles));
   partition_ = decomposition::Partition(weights, comm_.size());
 }
 
 void SiteState::distribute(mesh::SiteList sites) {
-  TRIME_ASSERT(state_ == State::empty || has_sites(), "first sites while others are on their way, or after their end");
+  TRIME_ASSERT(state_ == State::empty || has_sites(),
+               "sites can be distributed only before release_work_space(), and not while ghosts are being received");
   wrap(sites);
   const std::vector<std::int64_t> weights = decomposition::fit_tiles(comm_, grid_, sites);
   partition_ = decomposition::Partition(weights, comm_.size());
@@ -110,7 +111,7 @@ void SiteState::choose_bins(std::span<const mesh::Site> sites) {
 }
 
 void SiteState::move_sites(std::vector<std::uint8_t> gone, mesh::SiteList more) {
-  TRIME_ASSERT(has_sites(), "no sites that could move, or their ghosts are on their way");
+  TRIME_ASSERT(has_sites(), "sites can move only after distribute(), and not while ghosts are being received");
   const std::size_t before = static_cast<std::size_t>(points_.owned());
   wrap_next();
   wrap(more);
@@ -129,8 +130,9 @@ void SiteState::move_sites(std::vector<std::uint8_t> gone, mesh::SiteList more) 
 
 void SiteState::edit_sites(const delaunay::StarBuilder& builder, std::vector<LocalIndex> gone, mesh::SiteList come,
                            std::span<const double> sizes) {
-  TRIME_ASSERT(has_sites(), "no sites that could be edited, or their ghosts are on their way");
-  TRIME_ASSERT(sizes_.known(points_.owned() - 1) || points_.owned() == 0, "h of the owned sites is not known");
+  TRIME_ASSERT(has_sites(), "sites can be edited only after distribute(), and not while ghosts are being received");
+  TRIME_ASSERT(sizes_.known(points_.owned() - 1) || points_.owned() == 0,
+               "the target edge length h of the owned sites must be known");
   wrap(come);
   std::vector<ChangedPlace> changes;
   for (const LocalIndex i : gone)
@@ -227,7 +229,7 @@ void SiteState::carry_sizes(std::span<const LocalIndex> new_index) {
 
 /// Fetches the ghosts and evaluates h where it is not known.
 void SiteState::refresh(const sizing::SizeField& size) {
-  TRIME_ASSERT(has_sites(), "no sites whose ghosts could be fetched, or they are on their way");
+  TRIME_ASSERT(has_sites(), "ghosts can be fetched only after distribute(), and not while ghosts are being received");
   if (state_ == State::sorted)
     halo_.refresh(points_);
   state_ = State::complete;
@@ -235,12 +237,12 @@ void SiteState::refresh(const sizing::SizeField& size) {
 }
 
 void SiteState::forget_sizes() {
-  TRIME_ASSERT(has_sites(), "sizes cannot be forgotten now: there are no sites, or their ghosts have not arrived");
+  TRIME_ASSERT(has_sites(), "sizes can be forgotten only after distribute(), and not while ghosts are being received");
   sizes_.forget();
 }
 
 void SiteState::begin_advance(const sizing::SizeField& size, const mesh::DriftBound& drift, bool new_sizes) {
-  TRIME_ASSERT(state_ == State::complete, "a move without sorting needs the ghosts");
+  TRIME_ASSERT(state_ == State::complete, "sites can move without sorting only if all ghosts are known");
   state_ = State::advancing;
   points_.advance();
   halo_.begin_positions(points_);
@@ -254,7 +256,7 @@ void SiteState::begin_advance(const sizing::SizeField& size, const mesh::DriftBo
 }
 
 void SiteState::finish_advance(const sizing::SizeField& size) {
-  TRIME_ASSERT(state_ == State::advancing, "no move has begun");
+  TRIME_ASSERT(state_ == State::advancing, "finish_advance() must follow begin_advance()");
   halo_.finish_positions(points_);
   state_ = State::complete;
   if (ghosts_need_sizes_)
@@ -329,14 +331,15 @@ delaunay::StarPass SiteState::compute_stars(const delaunay::StarBuilder& builder
 }
 
 void SiteState::fetch(std::span<const mesh::BinRef> missing, const sizing::SizeField& size) {
-  TRIME_ASSERT(state_ == State::complete, "more bins are fetched once the first ghosts are here");
+  TRIME_ASSERT(state_ == State::complete, "more bins can be fetched only after the first ghosts have arrived");
   comm_.counters().add(Counter::fetch_rounds);
   // h of a site that has moved may be older than its place: all must see that of its owner.
   halo_.extend(points_, {missing.begin(), missing.end()}, size.is_uniform() ? nullptr : &sizes_.values());
 }
 
 void SiteState::release_work_space() {
-  TRIME_ASSERT(has_sites(), "no sites whose work space could be released, or their ghosts are on their way");
+  TRIME_ASSERT(has_sites(),
+               "the work space can be released only after distribute(), and not while ghosts are being received");
   state_ = State::released;
   points_.release_moves();
   sizes_.forget();

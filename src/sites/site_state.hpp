@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sites of a run and what holds them together over the ranks: grid, partition, halo, stars. Views of the stars for
-// all that moves sites or measures triangles, and the sites of a checkpoint, from which a state is restored.
+// The distributed state of the sites of a run: grid, partition, halo, stars. Also defines the view through which update
+// rules and measurements read stars, and the sites of a checkpoint, from which a state is restored.
 #pragma once
 
 #include "decomposition/halo.hpp"
@@ -20,40 +20,41 @@
 
 namespace trime::sites {
 
-/// The tiles of a checkpoint, in the order of the curve; the same on all ranks.
+/// The tiles in a checkpoint, in the order of the Hilbert curve; the same on all ranks.
 struct SavedTiles {
   std::vector<mesh::Tile> tiles;
-  std::vector<std::int64_t> counts;    ///< number of sites that were sorted into each tile
-  std::vector<double> drifts;          ///< how far these sites may have moved since then, domain units
+  std::vector<std::int64_t> counts; ///< number of sites that were sorted into each tile
+  std::vector<double> drifts;       ///< upper bound on how far these sites may have moved since then, in domain units
   std::vector<std::uint64_t> activity; ///< activity of each tile in the sweeps, see TileActivity
-  mesh::DriftBound largest;            ///< bound on the drifts
+  mesh::DriftBound largest;            ///< bound for all tiles
 };
 
-/// Sites of consecutive tiles, tile by tile. They may have left the tiles into which they were sorted.
+/// The sites of consecutive tiles, ordered by tile. The sites may have left the tiles into which they were sorted.
 struct SavedSites {
   mesh::SiteList sites;
-  std::vector<double> sizes; ///< h of each site; empty if the size is uniform
+  std::vector<double> sizes; ///< target edge length h of each site; empty if the size is uniform
 };
 
-/// Fetches rows [first, first + count) of all sites. Local. @throws FileError
+/// A function that fetches rows [first, first + count) of all sites in a checkpoint. Does not communicate.
+/// @throws FileError if they cannot be read
 using SiteLoader = std::function<SavedSites(std::int64_t first, std::int64_t count)>;
 
-/// Certified stars around the inner sites, and h.
+/// Certified stars around the inner sites, and the target edge length h.
 class StarView {
 public:
-  /// @param sizes h at the sites, as far as it is known; if null, h is evaluated
+  /// @param sizes h at the sites, as far as it is known; if null, the size field is evaluated
   StarView(const mesh::BinnedPoints& all_points, const delaunay::StarTable& all_stars, const sizing::SizeField& field,
            const mesh::LocalSizes* sizes = nullptr)
       : points(all_points), stars(all_stars), size_(field), sizes_(sizes), is_uniform_(field.is_uniform()),
         uniform_size_(is_uniform_ ? field.size({}) : 0) {}
 
   bool is_uniform() const { return is_uniform_; }
-  /// Returns h at any point, or at an image of a point.
+  /// Returns h at any point, or at a periodic image of a point.
   double size(geometry::Vec2 p) const {
     return is_uniform_ ? uniform_size_ : size_.size(points.grid().periods().wrap(p));
   }
-  /// Returns h at site i, owned or ghost. It has the same bits as size(points.position(i)), but is looked up where it
-  /// is known.
+  /// Returns h at site i, owned or ghost. The value has the same bits as size(points.position(i)); stored values are
+  /// used where they are known.
   double size(LocalIndex i) const { return sizes_ && sizes_->known(i) ? (*sizes_)[i] : size(points.position(i)); }
 
   const mesh::BinnedPoints& points;
@@ -66,7 +67,7 @@ private:
   double uniform_size_;
 };
 
-/// Which stars are to be computed.
+/// Which stars to compute: those of all sites, or only of sites that are not on the boundary.
 enum class Wanted { inner_sites, all_sites };
 
 /// A disc in which a rank must know all sites.
@@ -77,68 +78,71 @@ struct Disc {
 
 /// @brief Owned and ghost sites with their stars. The state decides which functions may be called; functions that
 /// change it assert it:
-/// - empty: at first. Only share_out, distribute and restore may be called.
-/// - sorted: after distribute and move_sites. The owned sites are sorted, the ghosts are missing, and no star is
-/// certain. Only refresh, compute_stars, forget_sizes, distribute, move_sites and edit_sites may be called.
-/// - complete: after refresh, compute_stars, restore, edit_sites and finish_advance. All functions except share_out and
-/// finish_advance may be called.
-/// - advancing: after begin_advance. The owned sites are at their next places, and the ghosts are still on their way.
-/// Only finish_advance and queries about sites far from all ghosts may be called.
-/// - released: after release_work_space. Only queries may be called, and h is not known.
+/// - empty: the state after construction. Only share_out, distribute and restore may be called.
+/// - sorted: the state after distribute and move_sites. The owned sites are sorted, the ghosts are missing, and no star
+///   is certain. Only refresh, compute_stars, forget_sizes, distribute, move_sites and edit_sites may be called.
+/// - complete: the state after refresh, compute_stars, restore, edit_sites and finish_advance. All functions except
+///   share_out and finish_advance may be called.
+/// - advancing: the state after begin_advance. The owned sites are at their next places, and the ghosts are still being
+///   sent. Only finish_advance and queries about sites far from all ghosts may be called.
+/// - released: the state after release_work_space. Only queries may be called, and h is not known.
 class SiteState {
 public:
-  /// @param box contains all sites throughout the run
+  /// @param box contains all sites during the whole run
   SiteState(const comm::Communicator& comm, const geometry::Box& box, const mesh::GridOptions& grid_options);
   /// @brief Copies the sites of another state at their present places, sorted and without stars. Collective.
   explicit SiteState(const SiteState& other);
 
-  /// @brief Replaces the tiles before there are sites, and distributes them so that ranks get about equal weights. The
-  /// arguments are the same on all ranks.
+  /// @brief Replaces the tiles before sites exist, and distributes the tiles so that ranks get about equal weights. The
+  /// arguments must be the same on all ranks.
   void share_out(std::vector<mesh::Tile> tiles, std::span<const std::int64_t> weights);
-  /// Takes the first sites, from any ranks. Fits the tiles to them, and partitions the tiles by the numbers of their
-  /// sites. Collective.
-  /// @throws ConfigError on all ranks if one would own more sites than a local index can count
+  /// Takes the first sites, each from any rank. Fits the tiles to them, and distributes the tiles over the ranks by
+  /// their numbers of sites. Collective.
+  /// @throws ConfigError on all ranks if a rank would own more sites than a local index can count
   void distribute(mesh::SiteList sites);
-  /// @brief Distributes the sites of a checkpoint over the ranks, in the tiles and bins that they had. Their stars are
-  /// not known. Collective.
-  /// @throws FileError on all ranks if `load` throws or the sites do not fit the tiles; ConfigError as in distribute
+  /// @brief Distributes the sites of a checkpoint over the ranks, in the tiles and bins that they had. The stars of the
+  /// sites are not known afterwards. Collective.
+  /// @throws FileError on all ranks if `load` throws or the sites do not fit the tiles; ConfigError under the
+  /// conditions of distribute
   void restore(const SavedTiles& saved, const SiteLoader& load, const sizing::SizeField& size);
-  /// @brief Moves the owned sites to BinnedPoints::next, removes some, and adds `more`, whichever rank owns their
-  /// places. Sends sites to their new owners, sorts them, and keeps their rings. Collective. @param gone 1 for each
-  /// owned site to remove, by local index; empty if none is
+  /// @brief Moves the owned sites to BinnedPoints::next, removes some, and adds the sites `more`, which may lie in
+  /// tiles of any rank. Sends sites to their new owners, sorts them, and keeps their rings of neighbours. Collective.
+  /// @param gone 1 for each owned site to be removed, by local index; empty if no site is removed
   void move_sites(std::vector<std::uint8_t> gone = {}, mesh::SiteList more = {});
 
-  /// @brief Has the effect of move_sites if few of the owned sites are removed and few are added in the tiles of this
-  /// rank, but keeps order, h and rings in place. Without periods, stars without a change nearby stay certain. Fetches
-  /// the ghosts. Collective among neighbours. O(edits log edits), and one copy of the data of the owned sites.
-  /// @param builder the builder of the stars that are certain
-  /// @param gone local indices of the sites to remove, ascending, each once
-  /// @param sizes h of the stage at each new site
+  /// @brief Does the same as move_sites for the case that few of the owned sites are removed and few are added in the
+  /// tiles of this rank. Changes order, h and rings in place. If the container is not periodic, stars without a change
+  /// nearby stay certain. Fetches the ghosts. Collective among neighbours. Cost: O(edits log edits), and one copy of
+  /// the data of the owned sites.
+  /// @param builder the builder that made the certain stars
+  /// @param gone local indices of the sites to be removed, ascending, each once
+  /// @param sizes target edge length h at each new site
   /// @pre sites have not moved since they were sorted, leads are released, and h at the owned sites is known
   void edit_sites(const delaunay::StarBuilder& builder, std::vector<LocalIndex> gone, mesh::SiteList come,
                   std::span<const double> sizes);
 
-  /// @brief Refreshes the halo and the sizes, and computes the wanted stars; fetches more bins until every one of them
-  /// is certain. Collective.
-  /// @param size the same field in all calls: h of sites that stay in place is not evaluated again
+  /// @brief Refreshes the halo and the sizes, and computes the wanted stars; fetches more bins until all of these stars
+  /// are certain. Collective.
+  /// @param size must be the same field in all calls, because h of a site that stays in place is not evaluated again
   /// @throws GeometryError on all ranks together if h at a site is not positive and finite
   delaunay::StarPass compute_stars(const delaunay::StarBuilder& builder, const sizing::SizeField& size, Wanted wanted);
 
-  /// As above, where `wanted` has one entry for each owned site.
+  /// Does the same; `wanted` has one entry for each owned site.
   delaunay::StarPass compute_stars(const delaunay::StarBuilder& builder, const sizing::SizeField& size,
                                    std::span<const delaunay::StarWish> wanted);
-  /// @brief Fetches the ghosts after a change of sites and evaluates h at sites that moved; part of compute_stars.
-  /// Collective.
+  /// @brief Fetches the ghosts after a change of sites, and evaluates h at sites that have moved. compute_stars does
+  /// this, too. Collective.
   void refresh(const sizing::SizeField& size);
-  /// Makes the next move evaluate h at all sites, also at sites that stay, whose h may belong to an earlier place.
+  /// Makes the next move evaluate h at all sites, even at sites that stay, whose h may belong to an earlier place.
   void forget_sizes();
   /// @brief Moves the owned sites to BinnedPoints::next without sorting, and sends their places to other ranks. The
-  /// ghosts must not be used until finish_advance. Collective. @pre no periods
-  /// @param drift bound on the drift of any site of any rank, with this move
-  /// @param new_sizes if true, evaluates h at the new places; otherwise sites keep their h
+  /// ghosts must not be used until finish_advance is called. Collective.
+  /// @pre the container is not periodic
+  /// @param drift upper bound on the drift of any site of any rank, including this move
+  /// @param new_sizes true to evaluate h at the new places; otherwise sites keep their h
   void begin_advance(const sizing::SizeField& size, const mesh::DriftBound& drift, bool new_sizes);
   void finish_advance(const sizing::SizeField& size);
-  /// Fetches more bins; their ghosts come behind the others. Collective.
+  /// Fetches more bins; their ghosts are appended to the others. Collective.
   void fetch(std::span<const mesh::BinRef> missing, const sizing::SizeField& size);
 
   const mesh::TileGrid& grid() const { return grid_; }
@@ -146,12 +150,12 @@ public:
   mesh::BinnedPoints& points() { return points_; }
   const delaunay::StarTable& stars() const { return stars_; }
   delaunay::StarTable& stars() { return stars_; }
-  /// Returns h at every known site, as of the last compute_stars; unknown after a move.
+  /// Returns h at every known site as of the last compute_stars; unknown after a move.
   const mesh::LocalSizes& sizes() const { return sizes_; }
   const decomposition::Halo& halo() const { return halo_; }
   const decomposition::Partition& partition() const { return partition_; }
   const comm::Communicator& comm() const { return comm_; }
-  /// Frees the data that only further moves would need; no move may follow.
+  /// Frees the data that only further moves need. Sites must not move afterwards.
   void release_work_space();
 
 private:
@@ -182,11 +186,12 @@ private:
   mesh::LocalSizes sizes_;
   std::vector<delaunay::StarWish> wanted_;
   State state_ = State::empty;
-  bool ghosts_need_sizes_ = false; // true while advancing: h is evaluated once the ghosts have arrived
-  std::vector<double> carried_;    // h of owned sites before a move, 0 where they moved
+  bool ghosts_need_sizes_ = false; // true while advancing, if h must be evaluated after the ghosts have arrived
+  std::vector<double> carried_;    // h of owned sites before a move; 0 for sites that moved
 };
 
-/// Returns points, stars and sizes as an update rule uses them. @param size the field of the last compute_stars
+/// Returns points, stars and sizes in the form that update rules use.
+/// @param size the field of the last compute_stars
 inline StarView view_of(const SiteState& state, const sizing::SizeField& size) {
   return {state.points(), state.stars(), size, &state.sizes()};
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A size field that is lowered around given places; a gradation limits how fast it grows from there.
+// A size field that is lowered around given places. From there it grows with the distance, at most by a given
+// gradation.
 #pragma once
 
 #include "trime/geometry/boundary.hpp"
@@ -13,7 +14,7 @@
 
 namespace trime::sizing {
 
-/// A place on a curve, its distance from the shape's curves, and h there.
+/// A place on a curve, its distance from the curves of the given shape, and h there.
 struct CurveDistance {
   geometry::Vec2 place;
   double distance, size;
@@ -21,8 +22,8 @@ struct CurveDistance {
   double in_sizes() const { return distance / size; }
 };
 
-/// @brief Returns the distances of a piece at its start and in its middle. Does not check the size. O(log of the pieces
-/// of the shape), thread-safe.
+/// @brief Returns the distances of a piece from the shape, at its start and in its middle. The size is not checked.
+/// Cost: O(log of the pieces of the shape). Thread-safe.
 inline std::array<CurveDistance, 2> curve_distances(const geometry::Piece& piece, const geometry::PieceTree& shape,
                                                     const SizeField& asked, const geometry::Periods& periods) {
   const auto at_place = [&](geometry::Vec2 p) {
@@ -40,24 +41,26 @@ class ConeTree;
 
 namespace trime::sizing {
 
-/// A place where the size must be at most a limit.
+/// A place at which the size must not exceed a limit.
 struct SizeLimit {
   geometry::Vec2 place;
   double size;
 };
 
-/// @brief The size min(field(x), min over limits k of size_k + gradation |x - place_k|), with the nearest images in a
-/// periodic container.
+/// @brief The size min(field(x), min over limits k of size_k + gradation |x - place_k|). In a periodic container,
+/// distances are those to the nearest periodic image.
 class LoweredSize final : public SizeField {
 public:
-  /// O(n log n) for n limits. @pre `field` outlives this object
+  /// Takes O(n log n) time for n limits.
+  /// @pre `field` outlives this object
   LoweredSize(const SizeField& field, const std::vector<SizeLimit>& limits, double gradation,
               const geometry::Periods& periods);
   LoweredSize(const SizeField&&, const std::vector<SizeLimit>&, double, const geometry::Periods&) = delete;
   ~LoweredSize() override;
-  /// Takes about 60 ns among a thousand limits. Invalid sizes of the field are returned unchanged.
+  /// Returns the lowered size at p. Takes about 60 ns for a thousand limits. Invalid sizes of the field are returned
+  /// unchanged.
   double size(geometry::Vec2 p) const override;
-  /// As size(p), where the field is known to have the valid value `field_size`.
+  /// Returns the lowered size at p if the field is known to have the valid value `field_size` there.
   double lowered(geometry::Vec2 p, double field_size) const;
   bool is_uniform() const override { return false; }
   std::size_t memory_bytes() const override;

@@ -15,12 +15,12 @@ namespace trime::sizing {
 
 class Images {
 public:
-  /// @param period_x, period_y periods; 0 if not periodic
+  /// @param period_x, period_y the periods; 0 in a direction that is not periodic
   Images(const geometry::Box& container, double period_x, double period_y)
       : container_(container), period_x_(period_x), period_y_(period_y) {}
 
-  /// Returns the shifts that may bring an object into reach, including the null shift. Objects lie in the container or
-  /// within two periods of it.
+  /// Returns the shifts that may bring an object into reach of the container, including the null shift. Objects lie in
+  /// the container or at most two periods away.
   std::vector<geometry::Vec2> shifts() const {
     std::vector<geometry::Vec2> list;
     const int nx = period_x_ > 0 ? 3 : 0, ny = period_y_ > 0 ? 3 : 0;
@@ -30,19 +30,19 @@ public:
     return list;
   }
 
-  /// Returns whether an object in the box may be the nearest to a point of the container. Always true if it is not
-  /// periodic.
+  /// Returns whether an object in the box may be the nearest one to some point of the container. Always true if the
+  /// container is not periodic.
   bool in_reach(const geometry::Box& box) const {
     return overlaps(box.min.x, box.max.x, container_.min.x, container_.max.x, period_x_) &&
            overlaps(box.min.y, box.max.y, container_.min.y, container_.max.y, period_y_);
   }
 
-  /// Returns the image of p in the container, along periodic axes.
+  /// Returns the image of p in the container along periodic axes; other coordinates stay.
   geometry::Vec2 wrap(geometry::Vec2 p) const {
     return {wrap(p.x, container_.min.x, period_x_), wrap(p.y, container_.min.y, period_y_)};
   }
 
-  /// Returns whether p lies in the container or in one of its images.
+  /// Returns whether p lies in the container or in one of its periodic images.
   bool in_container(geometry::Vec2 p) const {
     return (period_x_ > 0 || (p.x >= container_.min.x && p.x <= container_.max.x)) &&
            (period_y_ > 0 || (p.y >= container_.min.y && p.y <= container_.max.y));
@@ -62,23 +62,24 @@ private:
   double period_x_, period_y_;
 };
 
-/// A hierarchy of boxes around runs of consecutive pieces. Immutable; queries are thread-safe.
+/// Finds the nearest point of a boundary by a tree of boxes around runs of consecutive pieces. Immutable; queries are
+/// thread-safe.
 class PieceLocator {
 public:
-  /// Takes O(M) time for M pieces.
+  /// Builds the tree in O(M) time for M pieces.
   PieceLocator(const geometry::Boundary& boundary, const Images& images);
-  /// [1] Share by which the returned point may be farther away than the nearest. All segments of a circle are almost
-  /// equally near to its centre, and examining each one would take too long.
+  /// [1] Relative error by which the distance of the returned point may exceed the smallest distance. All segments of a
+  /// circle are almost equally near to its centre, and examining each one would take too long.
   static constexpr double slack = 5e-4;
-  /// A boundary point, and the segment on which it lies; on an arc, all three are the boundary point.
+  /// A boundary point, and the segment on which it lies; on an arc, all three points are the boundary point.
   struct Nearest {
     geometry::Vec2 point, segment_start, segment_end;
   };
-  /// Returns the boundary point nearest to p, if one is nearer than `reach`. O(log M) for curves.
+  /// Returns the boundary point nearest to p, if its distance is less than `reach`. Cost: O(log M) for curves.
   std::optional<Nearest> nearest(geometry::Vec2 p, double reach) const;
 
 private:
-  /// A circular piece or one of its images.
+  /// A circular piece or one of its periodic images.
   struct Arc {
     geometry::Piece piece;
     geometry::Vec2 shift;

@@ -91,7 +91,7 @@ void PointScheme::choose() {
                                       : "hexagonal lattice, all points at once: the size is uniform";
   } else if (start == Start::hilbert || options_.initial_fraction) {
     scheme_ = Scheme::hilbert;
-    reason_ = "quantiles of the density, all points at once (asked for)";
+    reason_ = "all points at once, along the Hilbert curve with the wanted density (asked for)";
   } else {
     choose_divisions();
   }
@@ -161,8 +161,9 @@ PointScheme::First PointScheme::first_of_insertion() {
   if (const double held = static_cast<double>(stage.placed_first()); points_now_ < 2 * held) {
     points_now_ = std::min(expected_points(), 2 * held); // a stage of boundary alone has no order to pass on
     stage = fit_.lay(std::sqrt(expected_points() / points_now_), points_now_);
-    reason_ += fmt::format("; the first share was raised to {:.3g}, since the boundary alone takes half of it",
-                           points_now_ / expected_points());
+    reason_ +=
+        fmt::format("; the first share of the points was raised to {:.3g}, because the boundary alone takes half of it",
+                    points_now_ / expected_points());
   }
   const double inner = points_now_ - static_cast<double>(stage.placed_first());
   place_along_curve(stage, inner, *along_curve(stage, inner, 1));
@@ -206,8 +207,9 @@ PointScheme::First PointScheme::first_of_divisions() {
 /// For coarse to fine, once the number of divisions is known.
 std::string PointScheme::reason_of_divisions() const {
   if (last_stage_ == 0)
-    return "quantiles of the density, all points at once: too few of them lie inside to divide a coarser mesh";
-  return fmt::format("coarse to fine, the edges of a mesh of 1/{} of the points are divided {}: {}",
+    return "all points at once, along the Hilbert curve with the wanted density: too few points lie inside to divide a "
+           "coarser mesh";
+  return fmt::format("coarse to fine, the edges of a mesh with 1/{} of the points are divided {}: {}",
                      1 << (2 * last_stage_), last_stage_ == 1 ? "once" : fmt::format("{} times", last_stage_),
                      options_.start == Start::coarse_to_fine ? "asked for" : "the size is graded");
 }

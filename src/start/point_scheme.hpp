@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the points come into the mesh: all at once, from a coarse mesh that is divided, or in insertions; with the
-// options of these stages.
+// Decides how the points come into the mesh: all at once, by dividing a coarse mesh repeatedly, or by insertions in
+// several stages. Also defines the options of these stages.
 #pragma once
 
 #include "core/state_fields.hpp"
@@ -18,53 +18,57 @@
 
 namespace trime::start {
 
-/// See MeshOptions for the meaning and the default of each option.
+/// The options of the start. MeshOptions explains each option and its default.
 struct StartOptions {
   std::uint64_t seed = 0;
   Start start = Start::automatic;
   std::optional<double> initial_fraction;
-  bool cleanup = false; ///< a clean-up follows, for which some points are held back
+  bool cleanup = false; ///< true if a clean-up follows, for which some points are held back
 };
 
-/// @brief The stages of a run. Lattice: one stage of a hexagonal lattice whose spacing fits the count. Hilbert: one
-/// stage of quantiles along the Hilbert curve. Coarse to fine: 1/4^k of the points are relaxed, then all edges are
-/// divided, k times; this gives the quality of 100 sweeps for the price of 20. Insertion, as in TriMe++: the run begins
-/// with a share of the points, and each further stage adds 60 % in the triangles that are largest relative to h; h is
-/// rescaled each time.
+/// @brief The stages of a run. Lattice: one stage that starts from a hexagonal lattice with the right number of points.
+/// Hilbert: one stage whose sites start along the Hilbert curve. Coarse to fine: 1/4^k of the points are relaxed, then
+/// all edges are divided, k times; this gives the quality of 100 sweeps at the cost of 20. Insertion, as in TriMe++:
+/// the run begins with a share of the points, and each further stage adds 60 % in the triangles that are largest
+/// relative to h, while h is scaled to the new number.
 class PointScheme {
 public:
   PointScheme(const fitting::LayoutContext& context, const StartOptions& options);
 
-  /// Returns the first stage with its sites distributed over the ranks. Collective.
-  /// @throws ConfigError if there are too few points for the shape or for max_size; GeometryError; both on all ranks
-  /// together
+  /// Returns the first stage, with its sites distributed over the ranks. Collective.
+  /// @throws ConfigError if there are too few points for the shape or for max_size; GeometryError if the shape cannot
+  /// be meshed; both on all ranks together
   sites::Stage first();
-  /// Returns the next stage. Collective. @pre !is_last(), and the stars of all sites of `previous` are certain.
+  /// Returns the next stage. Collective.
+  /// @pre !is_last(), and the stars of all sites of `previous` are certain
   sites::Stage next(const sites::Stage& previous);
-  /// @brief Returns the present stage of a run that continues from a checkpoint, laid out as it was, without its sites.
-  /// Collective. @param first the stage that first() returned @pre visit() has restored the numbers since then
+  /// @brief Returns the current stage of a run that continues from a checkpoint, with the same boundary as in the
+  /// checkpointed run but without sites. Collective.
+  /// @param first the stage that first() returned
+  /// @pre visit() has restored the numbers since then
   sites::Stage lay_again_from(sites::Stage first);
-  /// Visits the members that a checkpoint keeps.
+  /// Visits the members that are stored in a checkpoint.
   void visit(StateFields& fields);
   /// Returns true if no further stage follows.
   bool is_last() const { return stage_ == last_stage_; }
   int stage() const { return stage_; }
-  /// Number of the last stage, as far as is known: insertions may need more stages.
+  /// Returns the number of the last stage, as far as known: insertions may need more stages.
   int last_stage() const { return last_stage_; }
-  /// Returns true if later stages insert points into the mesh of this one.
+  /// Returns true if later stages insert points into the mesh of this stage.
   bool inserts() const { return scheme_ == Scheme::insertion; }
 
-  /// Returns where the boundary needs smaller triangles than the size asked for. @pre first() was called
+  /// Returns the places where the boundary needs smaller triangles than the size that was asked for.
+  /// @pre first() was called
   std::span<const sizing::SizeLimit> limits() const { return fit_.limits(); }
   /// Returns in one line which scheme was chosen and why.
   const std::string& reason() const { return reason_; }
-  /// Returns why the scheme made fewer points than asked for; empty if it did not.
+  /// Returns why the scheme made fewer points than requested; empty if it made enough.
   const std::string& shortage() const { return shortage_; }
 
 private:
   enum class Scheme { lattice, hilbert, coarse_to_fine, insertion };
 
-  /// The first stage, or the error if there are too few points for it.
+  /// The first stage, or an error value if there are too few points for it.
   using First = std::variant<sites::Stage, fitting::TooFewPoints>;
 
   void choose();
@@ -91,9 +95,9 @@ private:
   const StartOptions options_;
   Scheme scheme_ = Scheme::lattice;
   int stage_ = 0, last_stage_ = 0;
-  sites::Stage laid_last_; // last stage of the scheme coarse to fine, until it begins
-  double points_now_ = 0;  // points at which the current stage aims (insertion)
-  double expected_ = 0;    // points for which the current stage was laid out (coarse to fine)
+  sites::Stage laid_last_; // last stage of the scheme coarse to fine, prepared in advance
+  double points_now_ = 0;  // for insertions: number of points for which the current stage aims
+  double expected_ = 0;    // for coarse to fine: number of points for which the current stage was prepared
   std::string reason_, shortage_;
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes the inner sites of the next, finer stage from the relaxed sites of this one. Boundary sites are laid out again.
+// Makes the inner sites of the next, finer stage from the relaxed sites of the present stage. Boundary sites are placed
+// again.
 #pragma once
 
 #include "sites/fan.hpp"
@@ -10,24 +11,27 @@
 
 namespace trime::start {
 
-/// Returns the owned inner sites without leads.
+/// Returns the owned inner sites without their leads (momentum).
 mesh::SiteList inner_sites(const sites::SiteState& state);
 
-/// @brief Returns the owned inner sites and the middles of inner edges, where each edge counts once. These are four
-/// times as many sites at half the spacing, and as regular as the coarse mesh. @pre all stars are certain
+/// @brief Returns the owned inner sites and the midpoints of inner edges, each edge once. Together they are four times
+/// as many sites at half the spacing, and as regular as the coarse mesh.
+/// @pre all stars are certain
 mesh::SiteList split_edges(const sites::StageView& view);
 
-/// @brief Adds sites in the middles of the triangles whose circumradius is largest relative to h: `count` over all
-/// ranks, or as many as there are triangles. Places in the strip along the new boundary are left out. Collective. @pre
-/// all stars are certain
+/// @brief Adds sites at the centroids of the triangles whose circumradius is largest relative to h: `count` sites over
+/// all ranks, or as many as there are triangles. Places in the strip along the new boundary are left out. Collective.
+/// @pre all stars are certain
 void insert_in_triangles(const sites::StageView& view, const sites::Stage& next, std::int64_t count,
                          mesh::SiteList& sites);
 
-/// Removes sites outside the shape or within 0.43 h of its boundary, with h and boundary of the next stage. Collective.
+/// Removes sites that are outside of the shape or within 0.43 h of its boundary, for h and boundary of the next stage.
+/// Collective.
 void clear_strip(const sites::Stage& next, mesh::SiteList& sites);
 
-/// @brief Removes sites until at most `most` are left over all ranks: those nearest to the boundary relative to h,
-/// where the mesh is disturbed in any case. Collective. @return number removed
+/// @brief Removes sites until at most `most` are left over all ranks. The removed sites are those nearest to the
+/// boundary relative to h; the mesh is irregular there in any case. Collective.
+/// @return the number of removed sites
 std::int64_t trim(const comm::Communicator& comm, const sites::Stage& next, std::int64_t most, mesh::SiteList& sites);
 
 } // namespace trime::start

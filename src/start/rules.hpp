@@ -1,26 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tuned numbers of the module start: how many stages there are, and how many points each has.
+// The tuned numbers of the module start, which determine how many stages there are and how many points each has.
 #pragma once
 
 namespace trime::start {
 
 /// The numbers of the stages of a run.
 struct StartRules {
-  /// [points asked for] Largest share that the start holds back for sites that the clean-up inserts. The clean-up may
-  /// change the number by 0.005 of it (CleanupRules::largest_loss).
+  /// [points asked for] Largest share of the points that the start holds back for sites that the clean-up inserts. The
+  /// clean-up may change the number of points by a share of 0.005 (CleanupRules::largest_loss).
   static constexpr double reserved_share = 0.004;
-  /// [points] Number that the start holds back for each piece of the boundary, because the clean-up inserts sites at
-  /// ragged boundaries.
+  /// [points] Number of points that the start holds back for each piece of the boundary, because the clean-up inserts
+  /// sites at ragged boundaries.
   static constexpr double reserved_per_piece = 0.1;
-  /// [points asked for] Largest share that the start holds back in addition if there are several components. Not
-  /// measured.
+  /// [points asked for] Largest additional share of the points that the start holds back if there are several
+  /// components. Not measured.
   static constexpr double reserved_for_components = 0.01;
-  /// [points] Number for each further component: a small one may lack its only inner site. Not measured.
+  /// [points] Number of points that are held back for each further component, because a small component may lack its
+  /// only inner site. Not measured.
   static constexpr double reserved_per_component = 0.5;
-  /// [1] One insertion multiplies the number of points by this, as TriMe++ does.
+  /// [1] One insertion multiplies the number of points by this factor, as in TriMe++.
   static constexpr double growth = 1.6;
-  /// [1] The scheme coarse to fine samples the density in cells that are wider by this factor. The mesh was no worse
-  /// than with 1.
+  /// [1] The scheme coarse to fine samples the density in cells that are wider by this factor. The mesh was as good as
+  /// with 1.
   static constexpr double coarse_start = 2;
 };
 

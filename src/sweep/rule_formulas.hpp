@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The update rules as formulas over the ring of one site, or of several sites at once. V is double or a vector of
-// doubles (core/lanes.hpp), so scalar code and vector code move every site to the same bits.
+// The update rules as formulas over the neighbours of one site, or of several sites at once. The type V is double or a
+// vector of doubles (core/lanes.hpp), so scalar code and vector code move every site to bit-identical places.
 //
-// A formula takes the triangles (site, a, b) of a star one after the other, in the order of the ring. `active` is false
-// in lanes whose ring has already ended.
+// A formula takes the triangles (site, a, b) of a star one after the other, counter-clockwise around the site. `active`
+// is false in the vector lanes of sites whose triangles have all been taken.
 #pragma once
 
 #include "core/angle.hpp"
@@ -13,23 +13,24 @@
 
 namespace trime::sweep {
 
-/// The kind of rule: repulsive bars, centroids of Voronoi cells, or the energy of triangles.
+/// The kind of update rule: repulsive bars (DistMesh), centroids of Voronoi cells (Lloyd), or an energy of the
+/// triangles.
 enum class Mover { bars, cells, triangles };
 
 struct RuleParameters {
-  Mover mover = Mover::bars;
-  double length_scale = 1;                     ///< bars: rest length over h
-  double area_scale = 1;                       ///< triangles: wanted area over sqrt(3)/4 h^2
-  int exponent = SweepRules::density_exponent; ///< cells: exponent of 1/h in the weight
+  Mover mover = Mover::bars;                   ///< for bars: rest length of a bar over h
+  double length_scale = 1;                     ///< for triangles: wanted area over sqrt(3)/4 h^2
+  double area_scale = 1;                       ///< for cells: exponent of 1/h in the weight
+  int exponent = SweepRules::density_exponent; ///< share of the last move that is added to the next one (the lead)
   double momentum = 0;                         ///< share of the last move that becomes the lead
 };
 
-/// A neighbour of a site, relative to the site.
+/// The vector from a site to one of its neighbours.
 template <class V>
 struct Spoke {
   V x, y;
-  V squared; ///< its squared distance
-  V size;    ///< h at the neighbour
+  V squared; ///< squared distance of the neighbour from the site
+  V size;    ///< target edge length h at the neighbour
 };
 
 template <class V>
@@ -37,7 +38,8 @@ struct Move {
   V x, y;
 };
 
-/// Returns alpha - 1 of the triangle (0, a, b), which is a b c (a + b + c) / (16 A^2) - 1.
+/// Returns alpha - 1 of the triangle (0, a, b), where alpha is R/(2r). For side lengths a, b, c and area A, this is a b
+/// c (a + b + c) / (16 A^2) - 1.
 template <class V>
 TRIME_INLINE V excess_of_alpha(const Spoke<V>& a, const Spoke<V>& b, V twice_area) {
   const V x = b.x - a.x, y = b.y - a.y;
@@ -46,7 +48,7 @@ TRIME_INLINE V excess_of_alpha(const Spoke<V>& a, const Spoke<V>& b, V twice_are
   return first * second * third * (first + second + third) / (4.0 * (twice_area * twice_area)) - 1.0;
 }
 
-/// See DistMeshRule.
+/// Sums the forces of DistMeshRule.
 template <class V, bool graded>
 class BarFormula {
 public:
@@ -70,7 +72,7 @@ private:
   V x_{}, y_{};
 };
 
-/// See CvdRule.
+/// Computes the centroid of a Voronoi cell, as CvdRule describes.
 template <class V, bool graded>
 class CellFormula {
 public:
@@ -106,7 +108,7 @@ private:
   TRIME_INLINE V weight(V a, V b) const {
     const V ratio = 3.0 * own_size_ / (own_size_ + a + b);
     V result = V{} + 1.0;
-    if (exponent_ == 4) // nearly always
+    if (exponent_ == 4) // the usual exponent
       return (ratio * ratio) * (ratio * ratio);
     for (int k = 0; k < exponent_; ++k)
       result = result * ratio;
@@ -114,7 +116,7 @@ private:
   }
 
   /// Adds the integrals of a linear weight, and of the weight times the place, over the triangle (site, a, b). The
-  /// weight is 1 at the site.
+  /// weight is 1 at the site, and given at a and b.
   template <class M>
   TRIME_INLINE void add_triangle(const Corner& a, const Corner& b, M active) {
     const V twice_area = a.x * b.y - a.y * b.x;
@@ -132,7 +134,7 @@ private:
   V mass_{}, x_{}, y_{};
 };
 
-/// See TriangleRule.
+/// Computes the Newton step of TriangleRule.
 template <class V, bool graded>
 class TriangleFormula {
 public:
@@ -140,8 +142,8 @@ public:
       : own_size_(own_size), wanted_scale_(0.25 * sqrt_3 * rule.area_scale),
         uniform_wanted_(wanted_scale_ * own_size * own_size) {}
 
-  /// Adds gradient and second derivatives of the energy of the triangle (site, a, b) with respect to the place of the
-  /// site.
+  /// Adds the gradient and the second derivatives of the energy of the triangle (site, a, b), as a function of the
+  /// place of the site.
   template <class M>
   TRIME_INLINE void add(const Spoke<V>& a, const Spoke<V>& b, V twice_area, M active) {
     V wanted = uniform_wanted_;
@@ -165,7 +167,8 @@ public:
     xy_ = lanes::select(
         active, xy_ + (0.5 * mixed * (squares_x * area_y + squares_y * area_x) + curved * area_x * area_y), xy_);
   }
-  /// Returns the damped step to the minimum of the quadratic model; zero if there is no minimum.
+  /// Returns the damped Newton step to the minimum of the quadratic model of the energy; zero if the model has no
+  /// minimum.
   TRIME_INLINE Move<V> move() const {
     const V determinant = xx_ * yy_ - xy_ * xy_, factor = -SweepRules::triangle_damping / determinant;
     const auto sound = determinant > 0;
@@ -180,7 +183,7 @@ private:
   V gradient_x_{}, gradient_y_{}, xx_{}, xy_{}, yy_{};
 };
 
-/// Returns a neighbour relative to a site at p.
+/// Returns the vector from a site at p to one of its neighbours.
 inline Spoke<double> spoke_to(const sites::StarView& view, geometry::Vec2 p, LocalIndex neighbour) {
   const geometry::Vec2 u = view.points.position(neighbour) - p;
   return {u.x, u.y, u.x * u.x + u.y * u.y, view.size(neighbour)};

@@ -20,7 +20,7 @@ TilesAround::TilesAround(const mesh::BinnedPoints& points) {
     const mesh::FixedRect rect = mesh::common_part(rect_of(grid.tile(tile)).grown(1), grid.limits());
     grid.for_each_in(rect, [&](LocalIndex number, int, const mesh::FixedRect&) {
       const LocalIndex other = points.known_tile(number);
-      TRIME_ASSERT(other >= 0, "no bin is known of tile {} next to tile {}", number, tile);
+      TRIME_ASSERT(other >= 0, "no bin of tile {} is known, but it lies next to tile {}", number, tile);
       if (other >= owned)
         places_[at(t)] = TilePlace::at_border;
       tiles_.push_back(other);

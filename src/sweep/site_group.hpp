@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Processes TRIME_LANES sites at once with their stars, and tests these stars. Each source that is compiled for one
-// kind of processor includes this file once; everything in it is local to that source.
+// Processes TRIME_LANES sites at once with their stars, and tests these stars. Each source file that is compiled for
+// one kind of processor includes this header once; all names in this header are local to that source file.
 #pragma once
 
 #include "core/lanes.hpp"
@@ -15,16 +15,18 @@ using V = lanes::Types<width>::Doubles;
 using M = lanes::Types<width>::Mask;
 constexpr int slots = 8;
 
-/// The sites i, i + 1, ..., one in each lane. Lanes whose site is not local repeat a local site.
+/// A group of the sites i, i + 1, ..., one in each vector lane. A lane whose own site is not of the class `local` holds
+/// another local site, and its result is ignored.
 struct Group {
   LocalIndex site[width];
-  unsigned local = 0;    // one bit for each lane whose site is local
-  bool bordered = false; // some of these sites have the class `bordered`
+  unsigned local = 0;    // one bit for each lane whose own site is of the class `local`
+  bool bordered = false; // true if some of the sites have the class `bordered`
   int largest_degree = 0;
   V degree{};
 };
 
-/// @param wanted one bit for each lane; the other lanes count as not local
+/// Returns the group that begins at site i.
+/// @param wanted one bit for each lane; lanes without their bit count as not local
 TRIME_INLINE Group group_at(const SweepTask& task, LocalIndex i, LocalIndex end, unsigned wanted = ~0U) {
   Group group;
   LocalIndex any = -1;
@@ -48,7 +50,7 @@ TRIME_INLINE Group group_at(const SweepTask& task, LocalIndex i, LocalIndex end,
   return group;
 }
 
-/// Loads the positions (or h) of one neighbour of each site of a group.
+/// Loads the position (or, below, the target edge length h) of one neighbour of each site of a group.
 TRIME_INLINE lanes::Pairs<V> load_neighbours(const SweepTask& task, const Group& group, int slot) {
   const double* from[width];
   for (int l = 0; l < width; ++l)
@@ -77,14 +79,14 @@ TRIME_INLINE lanes::Pairs<V> load_sites(const geometry::Vec2* all, const Group& 
   return lanes::load_pairs<V>(from);
 }
 
-/// @brief Tests the stars of a group spoke by spoke. They must wind once and be locally convex, as in
-/// StarKernel::is_locally_convex. Each circumradius must be below the cap, and the first neighbour must still be the
-/// lexicographically smallest.
+/// @brief Tests the stars of a group of sites, neighbour by neighbour. The neighbours must wind once around the site,
+/// and the star must be locally convex, as in StarKernel::is_locally_convex. Each circumradius must be below the cap of
+/// the star, and the first neighbour must still be the lexicographically smallest.
 class ConvexityTest {
 public:
   TRIME_INLINE explicit ConvexityTest(V cap) : four_squared_caps_(4.0 * SweepRules::cap_margin * cap * cap) {}
 
-  /// Adds the consecutive spokes a, b, q; `ab` and `bq` are their cross products.
+  /// Adds the consecutive neighbours a, b, q; `ab` and `bq` are the cross products of a with b and of b with q.
   TRIME_INLINE void add(const Spoke<V>& a, const Spoke<V>& b, const Spoke<V>& q, V ab, V bq, const Spoke<V>& first,
                         M active) {
     const V qa = q.x * a.y - q.y * a.x;
@@ -99,7 +101,7 @@ public:
     bad_ |= active & (~(convex & turned & small) | smaller);
     turns_ -= active & (a.y < 0.0) & (b.y >= 0.0);
   }
-  /// Returns one bit for each lane whose star passes.
+  /// Returns one bit for each lane, which is set if the star in the lane passes the test.
   TRIME_INLINE unsigned good() const { return ~lanes::bits(bad_ | (turns_ != 1)); }
 
 private:
@@ -107,7 +109,7 @@ private:
   M bad_{}, turns_{};
 };
 
-/// Returns h at the sites of a group.
+/// Returns the target edge length h at the sites of a group.
 template <bool graded>
 TRIME_INLINE V sizes_of(const SweepTask& task, const Group& group) {
   if constexpr (graded)
@@ -115,13 +117,14 @@ TRIME_INLINE V sizes_of(const SweepTask& task, const Group& group) {
   return V{} + task.uniform_size;
 }
 
-/// Returns the caps of the stars of a group, see StarBuilder::cap.
+/// Returns the largest allowed circumradius in each star of a group, see StarBuilder::cap.
 TRIME_INLINE V caps_of(const SweepTask& task, V own_size) {
   const V uncapped = task.cap_factor * own_size, all_caps = V{} + task.largest_cap;
   return lanes::select(uncapped < all_caps, uncapped, all_caps);
 }
 
-/// Loads the spokes of a group, slot by slot. After its end a ring is repeated; at least two spokes are.
+/// Loads the vectors to the neighbours of a group of sites, slot by slot. Where a site has fewer neighbours than slots,
+/// its neighbours are repeated from the first; at least the first two are repeated.
 template <bool graded>
 TRIME_INLINE void load_spokes(const SweepTask& task, const Group& group, const lanes::Pairs<V>& p, V own_size,
                               Spoke<V> (&spoke)[slots + 2]) {
@@ -135,7 +138,8 @@ TRIME_INLINE void load_spokes(const SweepTask& task, const Group& group, const l
     if constexpr (graded)
       spoke[k].size = load_sizes(task, group, k);
   }
-  if (n + 2 > slots) { // a ring of 8 begins again after the last slot; a ring of 7 continues with its second neighbour
+  if (n + 2 > slots) { // a ring of 8 neighbours begins again after the last slot, a ring of 7 continues with its second
+                       // neighbour
     const M eight = group.degree == 8.0;
     spoke[slots] = {lanes::select(eight, spoke[0].x, spoke[1].x), lanes::select(eight, spoke[0].y, spoke[1].y),
                     lanes::select(eight, spoke[0].squared, spoke[1].squared),
@@ -144,7 +148,7 @@ TRIME_INLINE void load_spokes(const SweepTask& task, const Group& group, const l
   }
 }
 
-/// Passes every triangle of the stars of a group to the test and to a formula.
+/// Passes every triangle in the stars of a group to the convexity test and to the formula of the update rule.
 template <class Formula>
 TRIME_INLINE void visit_triangles(const Group& group, const Spoke<V> (&spoke)[slots + 2], ConvexityTest& test,
                                   Formula& formula) {

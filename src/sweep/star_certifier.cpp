@@ -108,8 +108,8 @@ void StarCertifier::exchange_news() {
   for (const decomposition::GhostNews& news : heard) {
     heard_of_.insert(news.cause);
     sites.push_back(find_owned(news.ghost));
-    TRIME_ASSERT(sites.back() >= 0, "no site at ({}, {}), which another rank has as a ghost", news.ghost.x,
-                 news.ghost.y);
+    TRIME_ASSERT(sites.back() >= 0, "this rank has no site at ({}, {}), but another rank has a ghost there",
+                 news.ghost.x, news.ghost.y);
   }
   mark(sites, suspects_);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Keeps the stars of the inner sites correct while sites move: by the Delaunay lemma where it suffices, otherwise by
-// the empty-circumcircle test.
+// Keeps the stars (Delaunay neighbours) of the inner sites correct while sites move. Most stars are certified by the
+// local Delaunay condition (the Delaunay lemma), the others by the empty-circumcircle test.
 #pragma once
 
 #include "sweep/site_classes.hpp"
@@ -12,67 +12,72 @@
 
 namespace trime::sweep {
 
-/// @brief Certifies the stars of the inner owned sites. The lemma (sweep_kernel.hpp) suffices for most of them, and the
-/// kernels apply it while they move the sites. Stars that fail there are *suspects*, and are certified here.
+/// @brief Certifies the stars of the inner owned sites. The Delaunay lemma (sweep_kernel.hpp) suffices for most of
+/// them, and the vector kernels apply the lemma while they move the sites. A star that fails there is a *suspect*, and
+/// is certified by this class.
 ///
-/// Suspects are certified by the empty-circumcircle test, and so are stars next to them that change, until all rings
-/// agree. The owner of a ghost keeps its star, so ranks send each other messages about stars that a change affects.
-/// Both certificates are equivalent: no result depends on which was used, or on ranks and threads.
+/// Suspects are certified by the empty-circumcircle test. If that changes a star, the stars next to it are certified
+/// too, until all neighbours agree. Only the owner of a site keeps its star, so ranks send each other messages about
+/// stars of ghosts that may have changed. Both kinds of certificate are equivalent: no result depends on which kind was
+/// used, on ranks or on threads.
 ///
-/// Why that is enough: a star that was not examined again is locally convex, and agrees with its neighbours (if one of
-/// them had changed, this star would have been examined). The region of all such stars is bounded by edges of stars
-/// certified by the empty-circumcircle test, which are edges of the unique Delaunay triangulation. Inside the region,
-/// the lemma holds.
+/// Why that is enough: a star that was not examined again is locally convex and agrees with its neighbours, because a
+/// change of a neighbour would have led to an examination. The region of all such stars is bounded by edges of stars
+/// that the empty-circumcircle test has certified, and these edges belong to the unique Delaunay triangulation. Inside
+/// the region, the Delaunay lemma holds.
 ///
-/// Boundary sites keep no stars. But if the diametral disc of a chord holds no site, the chord is an edge of that
-/// triangulation as well, and may be part of the border of the region. The reason is that, beyond the chord, the disc
-/// of a triangle on it lies inside the disc of the chord. No boundary site is in such a disc (BoundarySites); inner
-/// sites are rarely in one, and then the stars next to the boundary in nearby tiles need the empty-circumcircle test.
+/// Boundary sites keep no stars. But if the diametral circle of a boundary edge contains no site, the edge also belongs
+/// to the Delaunay triangulation, and may be part of the border of the region. The reason is that the circumcircle of a
+/// triangle on this edge lies, beyond the edge, inside the diametral circle. No boundary site is inside such a circle
+/// (BoundarySites). Inner sites are rarely inside one; then the stars next to the boundary in nearby tiles need the
+/// empty-circumcircle test.
 class StarCertifier {
 public:
-  /// @pre each star of an inner site was certain before the last moves, or its ring is empty; h is known at all sites;
-  /// all arguments outlive this object
+  /// @pre each star of an inner site was certain before the last moves, or its list of neighbours is empty; the target
+  /// edge length h is known at all sites; all arguments outlive this object
   StarCertifier(sites::SiteState& state, const delaunay::StarBuilder& builder, const MoveContext& context,
                 LemmaReach reach);
 
-  /// Must be called after sites were sorted.
+  /// Must be called after each sorting of the sites.
   void reset();
   const SiteClasses& classes() const { return classes_; }
   SiteClasses& classes() { return classes_; }
 
-  /// Certifies all stars at the present places, and fetches the ghosts that this takes. Moves nothing, and frees the
-  /// leads. Collective.
+  /// Certifies all stars at the present places of the sites, and fetches the ghosts that the tests need. Moves no site,
+  /// and releases the memory of the leads. Collective.
   void certify_all();
 
-  /// Begins a sweep without suspects.
+  /// Begins a sweep with an empty list of suspects.
   void begin_sweep();
-  /// Adds suspects, except stars that were already certified in this sweep.
+  /// Adds sites whose stars must be certified, except sites whose stars were already certified in this sweep.
   void suspect(std::span<const LocalIndex> sites) { mark(sites, suspects_); }
-  /// @brief Certifies the suspects, then the stars next to them that they have changed, until nothing changes on this
-  /// rank. Then ranks send each other the affected stars, and certify these. Stars that miss a bin stay suspects.
-  /// Collective among neighbours.
-  /// @return the sites whose stars were certified in this call
+  /// @brief Certifies the suspects, then the stars next to changed ones, until no star of this rank changes. Then
+  /// neighbouring ranks send each other the affected stars, and certify these too. A star that needs the sites of an
+  /// unknown bin stays a suspect. Collective among neighbours.
+  /// @return the sites whose stars this call has certified
   std::vector<LocalIndex> certify_suspects();
-  /// The work that is left, on this rank or summed over all ranks.
+  /// The certification work that is left, on this rank or summed over all ranks.
   struct Open {
-    std::int64_t uncertain = 0; ///< stars that still miss a bin
-    std::int64_t untold = 0;    ///< ghosts whose owners have not yet received a message about a change
+    std::int64_t uncertain = 0; ///< stars that need the sites of a bin that the rank does not know
+    std::int64_t untold = 0;    ///< ghosts whose owners still have to receive a message about a changed star
     bool any() const { return uncertain + untold > 0; }
   };
   Open open() const { return {std::ssize(suspects_), std::ssize(news_)}; }
-  /// Fetches the bins that are missing on any rank. `round` counts these calls in a sweep. Collective.
-  /// @param all the sums over all ranks
-  /// @throws InternalError on all ranks after SiteRules::most_halo_rounds
+  /// Fetches the bins that suspects on any rank need. `round` counts these calls in a sweep. Collective.
+  /// @param all the open work, summed over all ranks
+  /// @throws InternalError on all ranks if `round` exceeds SiteRules::most_halo_rounds
   void go_on(const Open& all, int round);
-  /// Returns whether the star of site i was certified here in this sweep.
+  /// Returns whether this object has certified the star of site i in this sweep.
   bool was_checked(LocalIndex i) const { return marked_[static_cast<std::size_t>(i)]; }
   /// Returns whether the star of site i has changed in this sweep.
   bool has_changed(LocalIndex i) const { return marked_[static_cast<std::size_t>(i)] == changed; }
-  /// Number of stars of this rank that changed in this sweep, including lost ones next to borders.
+  /// Returns the number of stars of this rank that changed in this sweep, including stars next to borders that had to
+  /// be built again.
   std::int64_t rebuilt() const { return rebuilt_; }
   void end_sweep();
 
-  /// Compares every star with one computed by emptiness. Collective. @throws InternalError on all ranks if any differs
+  /// Compares every star with a star computed from all surrounding sites by the empty-circumcircle test. Collective.
+  /// @throws InternalError on all ranks if any two differ
   void verify() const;
 
 private:
@@ -88,14 +93,15 @@ private:
   const MoveContext context_;
   SiteClasses classes_;
   static constexpr std::uint8_t checked = 1, changed = 2;
-  std::vector<std::uint8_t> marked_;  // by site: whether its star was certified in this sweep, and whether it changed
-  std::vector<LocalIndex> suspects_;  // stars that need the empty-circumcircle test
-  std::vector<LocalIndex> checked_;   // all that were suspects in this sweep
-  std::vector<mesh::BinRef> missing_; // bins that suspects miss, ascending
+  std::vector<std::uint8_t>
+      marked_; // by site: 0, `checked` (its star was certified in this sweep) or `changed` (and differs from before)
+  std::vector<LocalIndex> suspects_;  // sites whose stars need the empty-circumcircle test
+  std::vector<LocalIndex> checked_;   // all sites that were suspects in this sweep
+  std::vector<mesh::BinRef> missing_; // bins that the stars of suspects need and this rank does not know, ascending
   std::vector<LocalIndex> affected_ghosts_;    // ghosts whose owners will receive a message
   std::vector<decomposition::GhostNews> news_; // messages about the affected ghosts
   std::unordered_set<LocalIndex> told_ghosts_; // ghosts whose owners have received a message in this sweep, or will
-  /// Places of ghosts that, as far as this rank knows, their owners have examined in this sweep.
+  /// Places of the ghosts whose owners, according to their messages, have examined the star in this sweep.
   std::set<geometry::Vec2, decltype(&geometry::lexicographically_less)> heard_of_{geometry::lexicographically_less};
   std::int64_t rebuilt_ = 0;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which rule moves the sites, and when a stage ends: from maxima and integer sums over all ranks only, never from
-// times; with the options of the sweeps.
+// Decides which update rule moves the sites, and when a stage ends. The decisions use only maxima and integer sums over
+// all ranks, never measured times. Also holds the options of the sweeps.
 #pragma once
 
 #include "sweep/rules.hpp"
@@ -17,27 +17,28 @@ namespace trime::sweep {
 struct SweepOptions {
   Method method;
   int max_sweeps;                       ///< largest number of moves of the whole run, over all stages
-  std::optional<double> stop_tolerance; ///< least gain in six sweeps; empty: StopRules decide by rule and stage
+  std::optional<double> stop_tolerance; ///< least relative gain of quality in six sweeps; if empty, StopRules gives a
+                                        ///< value for each rule and stage
   int density_exponent;                 ///< see CvdRule
   StarTests star_tests = {};
 };
 
-/// Says when a rule counts as stalled.
+/// Decides when an update rule counts as stalled.
 struct Patience {
-  double tolerance;                   ///< least share of alpha - 1 that a window must gain
-  int earliest = StopRules::earliest; ///< the rule cannot count as stalled before this number of sweeps
-  bool median = true;                 ///< the median of alpha must have stalled as well
-  double seen = StopRules::seen;      ///< also stalled if mean alpha gains less than this in a window
+  double tolerance;                   ///< least share by which alpha - 1 must fall in a window of sweeps
+  int earliest = StopRules::earliest; ///< the rule cannot count as stalled before this sweep
+  bool median = true;                 ///< whether the median of alpha must have stalled as well as the mean
+  double seen = StopRules::seen;      ///< the rule has also stalled if mean alpha falls by less than this in a window
 };
 
-/// @brief Says when a stage ends, for one of three reasons. Converged: no site moved by more than SweepRules::still in
-/// the last sweep. Quality stalled: the mean of alpha - 1 fell by less than the tolerance, or by less than can be seen,
-/// over the last window. Sweep cap: the run has made max_sweeps moves.
+/// @brief Decides when a stage ends, for one of three reasons. Converged: no site moved by more than SweepRules::still
+/// in the last sweep. Stalled: over the last window of sweeps the mean of alpha - 1 fell by less than the tolerance, or
+/// by less than can be seen. Too many sweeps: the run has made max_sweeps moves.
 class StopRule {
 public:
   StopRule(int max_sweeps, const Patience& patience) : max_sweeps_(max_sweeps), patience_(patience) {}
-  /// @param records records of the stage, or of its part in which the present rule moved the sites; the same on every
-  /// rank
+  /// @param records records of all sweeps of the stage, or only of the sweeps since the present rule took over; the
+  /// same on every rank
   std::optional<StopReason> decide(std::span<const SweepRecord> records) const;
 
 private:
@@ -45,34 +46,38 @@ private:
   Patience patience_;
 };
 
-/// Returns true if bars gain little: the median of alpha - 1 fell by less than the share StopRules::median_gain over
-/// the last window, or is already good.
+/// Returns true if the bar rule gains little: over the last window of sweeps the median of alpha - 1 fell by less than
+/// the share StopRules::median_gain, or alpha is already good.
 bool median_stalled(std::span<const SweepRecord> records);
 
-/// The decision after a record: the end of the stage, a change of the rule, or neither.
+/// The decision after the record of a sweep: to end the stage, to change the update rule, or to go on.
 struct SweepDecision {
-  std::optional<StopReason> stop; ///< why the stage ends
-  std::optional<Mover> next;      ///< the rule that moves the sites from now on
+  std::optional<StopReason> stop; ///< the reason for which the stage ends; empty if it goes on
+  std::optional<Mover> next;      ///< the update rule that moves the sites from now on; empty if it does not change
 };
 
-/// @brief Chooses the rule of each sweep. `distmesh` and `cvd` use one rule. `hybrid` starts with bars and changes to
-/// Voronoi cells, once, when the median of alpha stalls. This happens in the first stage if the later ones divide a
-/// relaxed mesh, and in the last stage if they insert points (as TriMe++ does). When the cells have stalled,
-/// TriangleRule ends the stage. It also does all the work in the stages after a division, since these start from a
-/// relaxed mesh.
+/// @brief Chooses the update rule of each sweep. The methods `distmesh` and `cvd` use one rule. The method `hybrid`
+/// starts with the bar rule and changes once to the Voronoi rule, when the median of alpha stalls. This change happens
+/// in the first stage if later stages divide a relaxed mesh, and in the last stage if later stages insert points (as in
+/// TriMe++). When the Voronoi rule has stalled, TriangleRule ends the stage. In stages that begin with a division,
+/// TriangleRule does all the work, because these stages start from a relaxed mesh.
 class SweepControl {
 public:
-  /// @param history history of the run, which keeps growing; outlives this object
+  /// @param history history of the run, to which the caller keeps appending; must outlive this object
   SweepControl(const SweepOptions& options, const std::vector<SweepRecord>& history);
 
-  /// @param inserts later stages insert points @param is_last no later stage follows
+  /// Begins a stage.
+  /// @param inserts true if later stages insert points (false if they divide triangles)
+  /// @param is_last true if no stage follows
   void begin_stage(bool inserts, bool is_last);
-  /// Returns the decision after the last record; changes nothing. @pre the stage has a record
+  /// Decides after the last record whether the stage goes on; changes nothing.
+  /// @pre the stage has a record
   SweepDecision decide() const;
-  /// Changes the rule. The new rule counts its gains from the last record.
+  /// Changes the update rule. The gain of the new rule is counted from the last record on.
   void switch_to(Mover mover);
   UpdateRule& rule() { return *rule_; }
-  /// Visits the members that a checkpoint keeps. @pre begin_stage()
+  /// Visits the members that are stored in a checkpoint.
+  /// @pre begin_stage() was called
   void visit(StateFields& fields);
   Mover mover() const { return mover_; }
 
@@ -86,7 +91,7 @@ private:
   const std::vector<SweepRecord>& history_;
   std::unique_ptr<UpdateRule> rule_;
   Mover mover_ = Mover::bars;
-  std::size_t first_record_ = 0; // record from which the present rule counts its gains
+  std::size_t first_record_ = 0; // the first record that counts for the present rule
   bool may_switch_ = true, inserts_ = false, is_last_ = true;
 };
 

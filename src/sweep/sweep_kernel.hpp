@@ -1,6 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// The kernels of a sweep: one pass over the sites of a tile certifies their stars at the present positions and moves
-// them. A kernel processes several sites at once; the bits do not depend on how many.
+// SPDX-License-Identifier: BSD-3-Clause Declares the vector kernels of a sweep. In one pass over the sites of a tile, a
+// kernel certifies their stars at the present positions and moves the sites. A kernel processes several sites at once;
+// the bits of the result do not depend on how many.
 #pragma once
 
 #include "core/simd_level.hpp"
@@ -14,57 +14,62 @@
 
 namespace trime::sweep {
 
-/// How the pass treats a site.
+/// Says how a sweep treats a site.
 enum class SiteClass : std::uint8_t {
-  held,     ///< a boundary site: it does not move and has no star
-  fixed,    ///< a fixed point of the user: it does not move; its star needs the empty-circumcircle test
-  exact,    ///< moves; its star needs the empty-circumcircle test, because this rank does not keep the stars of all its
-            ///< neighbours
-  bordered, ///< moves, next to chords of the boundary; treated as `local` while no site is in the disc of a chord
-            ///< nearby
-  local     ///< moves; its star is certified by the stars around it
+  held,     ///< a boundary site: does not move and has no star
+  fixed,    ///< a fixed point of the user: does not move; its star needs the empty-circumcircle test
+  exact,    ///< an inner site that moves; its star needs the empty-circumcircle test, because some of its neighbours
+            ///< belong to other ranks
+  bordered, ///< an inner site next to the boundary; treated as `local` while no site is in the diametral circle of a
+            ///< boundary edge nearby
+  local     ///< an inner site that moves; the local Delaunay test of its star and of the stars around it is enough
 };
 
-/// Bits that say what a pass must do with a site. A site without `awake` and `watched` is asleep.
+/// Bits that say what a sweep must do with a site. A site with neither `awake` nor `watched` is asleep: the sweep skips
+/// it.
 struct SiteFlags {
-  static constexpr std::uint8_t awake = 1;   ///< the rule may move it
-  static constexpr std::uint8_t watched = 2; ///< its star is certified even if nothing has moved: not local, or the
+  static constexpr std::uint8_t awake = 1;   ///< the update rule may move the site
+  static constexpr std::uint8_t watched = 2; ///< the star is certified even if nothing has moved, because the site is
+                                             ///< not `local` or its star failed the local test
                                              // /< lemma did not do for it
-  static constexpr std::uint8_t copied = 4;  ///< asleep, with the same place and no lead both now and next
+  static constexpr std::uint8_t copied =
+      4; ///< the site is asleep, and its present place and its next place are already the same
   TRIME_INLINE static constexpr bool is_asleep(std::uint8_t flags) { return (flags & (awake | watched)) == 0; }
 };
 
-/// The input and output of a kernel: plain arrays by local index, and values that are the same for all sites.
+/// The input and output of a kernel: arrays by local index of the sites, and values that are the same for all sites.
 struct SweepTask {
   const geometry::Vec2* positions;
-  const geometry::Vec2* leads; ///< null, like next_leads, where sites have none: then all are zero
-  const LocalIndex* rings;     ///< 8 slots each, a shorter ring is repeated in them
+  const geometry::Vec2* leads; ///< null, like next_leads, if no site has a lead (momentum part of its step)
+  const LocalIndex* rings;     ///< the neighbours of each site in 8 slots; fewer neighbours are repeated from the first
   const std::uint8_t* degrees;
-  const SiteClass* classes;                 ///< class of each owned site
-  const std::int32_t* boundary = nullptr;   ///< see BinnedPoints::boundary; only for QualityKernel
-  SiteClass least_class = SiteClass::local; ///< sites of a lower class are left to the caller
-  std::uint8_t* flags = nullptr;            ///< SiteFlags; of use to SweepKernel only. Held sites are asleep, and those
-                                            // /< of all other classes but `local` are watched
-  const double* sizes = nullptr;            ///< null: uniform_size everywhere
+  const SiteClass* classes; ///< class of each owned site
+  const std::int32_t* boundary =
+      nullptr; ///< number of the site on the boundary, as in BinnedPoints::boundary; used by QualityKernel only
+  SiteClass least_class = SiteClass::local; ///< sites of a lower class are listed for the caller instead
+  std::uint8_t* flags = nullptr; ///< SiteFlags, used by SweepKernel only; `held` sites are asleep, and sites of all
+                                 ///< classes except `local` are watched
+                                 // /< of all other classes but `local` are watched
+  const double* sizes = nullptr; ///< target edge length at each site; null: uniform_size everywhere
   double uniform_size = 1;
   geometry::Vec2* next_positions;
   geometry::Vec2* next_leads;
 
   RuleParameters rule;
   double lattice_step = 1, inverse_lattice_step = 1;
-  geometry::Box box;                      ///< no site leaves it; infinite along periodic axes
-  double cap_factor = 1, largest_cap = 1; ///< as in StarBuilder::cap
+  geometry::Box box;                      ///< no site leaves this box; infinite along periodic axes
+  double cap_factor = 1, largest_cap = 1; ///< largest circumradius of a star's triangles, as in StarBuilder::cap
 
   polygon::GuardCells guard;
 };
 
-/// Sums over the moves of some sites. They are integers, so they may be added in any order.
+/// Sums over the moves of some sites. All sums are integers, so they may be added in any order.
 struct SweepTally {
   std::int64_t moving = 0; ///< sites that moved by more than SweepRules::still
-  std::int64_t power = 0;  ///< power of the moves in units of FixedSum, see Momentum
+  std::int64_t power = 0;  ///< power of the moves in units of FixedSum, see class Momentum
   std::int64_t pushed = 0, deleted = 0;
-  double squared_ratio = 0;    ///< largest squared move over h^2
-  double squared_distance = 0; ///< largest squared move
+  double squared_ratio = 0;    ///< largest squared move over h^2 of the site
+  double squared_distance = 0; ///< largest squared move in domain units
 
   void add(const SweepTally& other) {
     moving += other.moving;
@@ -76,13 +81,14 @@ struct SweepTally {
   }
 };
 
-/// Adds one site to the tally; the vector path computes the same bits.
+/// The contribution of one site to the sums. With V = double or a vector type, the bits are the same.
 template <class V>
 struct SiteTally {
   V squared_distance, squared_ratio, power;
 
-  /// @param x, y move from the old place to the new one @param lead_x, lead_y old lead; next_lead_x, next_lead_y new
-  /// lead
+  /// @param x, y move from the old place to the new one
+  /// @param lead_x, lead_y lead before the move
+  /// @param next_lead_x, next_lead_y lead after the move
   TRIME_INLINE SiteTally(V x, V y, V lead_x, V lead_y, V next_lead_x, V next_lead_y, V h) {
     const V inverse = 1.0 / (h * h), move_x = x - next_lead_x, move_y = y - next_lead_y;
     squared_distance = x * x + y * y;
@@ -94,8 +100,8 @@ struct SiteTally {
   }
 };
 
-/// Returns whether a site with this move rests for any momentum. Then it need not be examined again until it, a
-/// neighbour, its star or the rule changes.
+/// Returns whether a site with this move stays at rest for any value of the momentum. Such a site need not be examined
+/// again until the site, one of its neighbours, its star or the update rule changes.
 template <class V>
 TRIME_INLINE auto surely_rests(V move_x, V move_y, V h) {
   static_assert((1 + SweepRules::largest_momentum) * SweepRules::rest_share < 1);
@@ -103,31 +109,32 @@ TRIME_INLINE auto surely_rests(V move_x, V move_y, V h) {
   return move_x * move_x + move_y * move_y < limit * limit;
 }
 
-/// Sites that the pass leaves to its caller. Each list is ascending, for any number of lanes. The caller provides room
-/// for all sites.
+/// Sites that a kernel lists for its caller instead of moving them. Each list is ascending, whatever the number of
+/// vector lanes. The caller provides room for all sites of the range in each list.
 struct SweepLeftovers {
   LocalIndex* suspects;  ///< sites whose stars need the empty-circumcircle test before they move
-  LocalIndex* irregular; ///< sites with good stars whose move exceeds the cap and was not made
-  LocalIndex* guarded;   ///< sites that moved to a place near the boundary and may have to be pushed
+  LocalIndex* irregular; ///< sites with certified stars whose move would be too long; the kernel has not moved them
+  LocalIndex*
+      guarded; ///< sites that the kernel moved to a place near the boundary, from which they may have to be pushed
   std::ptrdiff_t suspect_count = 0, irregular_count = 0, guarded_count = 0;
-  std::ptrdiff_t awake_count = 0; ///< how many sites were awake
+  std::ptrdiff_t awake_count = 0; ///< number of sites that were awake
 };
 
-/// @brief Certifies the local sites of [begin, end) by the Delaunay lemma (a triangulation is Delaunay if every star
-/// winds once, counter-clockwise, and is locally convex: Delaunay 1934) and computes their next positions and leads.
-/// Sites that it does not move keep their place. Sites that surely rest fall asleep. Takes about 10 ns per site in
-/// addition to the rule, and less than 1 ns for a site that sleeps among others.
-/// @pre the rings of all local sites and their neighbours agree with each other
-/// @return the sums over the sites that it moved
+/// @brief Certifies the local sites of [begin, end) by the Delaunay lemma and computes their next positions and leads.
+/// The lemma says that a triangulation is Delaunay if every star winds once, counter-clockwise, and is locally convex
+/// (Delaunay 1934). A site that the kernel does not move keeps its place. A site that surely rests falls asleep. Cost:
+/// about 10 ns per site in addition to the rule, and less than 1 ns for a sleeping site among other sleeping ones.
+/// @pre two neighbouring local sites always list each other as neighbours
+/// @return the sums over the sites that the kernel has moved
 using SweepKernel = SweepTally (*)(const SweepTask& task, LocalIndex begin, LocalIndex end, SweepLeftovers& leftovers);
 
-/// @brief Certifies the same stars without moving sites. `suspects` receives the sites whose stars need the
-/// empty-circumcircle test, in ascending order, and must have room for all sites. Needs no rule, leads or next places.
-/// Takes about 10 ns per site.
-/// @return number of these sites
+/// @brief Certifies the stars of [begin, end) by the Delaunay lemma without moving sites. `suspects` receives the sites
+/// whose stars need the empty-circumcircle test, in ascending order, and must have room for all sites. The task needs
+/// no update rule, leads or next places. Cost: about 10 ns per site.
+/// @return number of entries written to `suspects`
 using CertifyKernel = std::ptrdiff_t (*)(const SweepTask& task, LocalIndex begin, LocalIndex end, LocalIndex* suspects);
 
-/// Sums over the stars of some sites, in units of FixedSum; see SweepSums.
+/// Sums over the stars of some sites, in units of FixedSum; SweepSums describes each sum.
 struct QualityTally {
   std::int64_t squared_lengths = 0, squared_sizes = 0, excess = 0, triangles = 0;
   double largest_excess = 0;
@@ -141,25 +148,25 @@ struct QualityTally {
   }
 };
 
-/// Largest number of sites in one call of QualityKernel. It keeps the sums within 64 bits, and the list of excesses in
-/// the cache.
+/// Largest number of sites in one call of QualityKernel. With at most this number, sums stay within 64 bits and the
+/// list of excesses fits into the cache.
 constexpr LocalIndex most_measured = 1024;
 
-/// @brief Measures the stars of the local sites of [begin, end), at most `most_measured`. A triangle counts at the
-/// lexicographically smallest of its corners. Takes about 15 ns per site.
-/// @param inverse_reference 1 / h_ref of SweepSums
+/// @brief Measures the triangles at the local sites of [begin, end), which are at most `most_measured` sites. A
+/// triangle is counted at the lexicographically smallest of its corners. Cost: about 15 ns per site.
+/// @param inverse_reference 1 / h_ref, where h_ref is the typical size that SweepSums uses
 /// @param excesses receives alpha - 1 of each triangle; has room for 8 per site
 using QualityKernel = QualityTally (*)(const SweepTask& task, LocalIndex begin, LocalIndex end,
                                        double inverse_reference, double* excesses);
 
-/// The kernels for one kind of processor.
+/// The three kernels, compiled for one kind of processor.
 struct SweepKernels {
   SweepKernel sweep;
   CertifyKernel certify;
   QualityKernel measure;
 };
 extern const SweepKernels kernels_portable, kernels_avx2, kernels_avx512;
-/// Returns the kernels for this machine, see simd_level().
+/// Returns the kernels for the processor of this machine, as simd_level() finds it.
 inline const SweepKernels& sweep_kernels() {
   return *of_level(simd_level(), &kernels_portable, &kernels_avx2, &kernels_avx512);
 }

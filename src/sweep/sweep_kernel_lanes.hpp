@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The kernels of sweep_kernel.hpp that certify and move, for TRIME_LANES sites at once. Each source that is compiled
-// for one kind of processor includes this file once; everything in it is local to that source.
+// Implements the kernels of sweep_kernel.hpp for TRIME_LANES sites at once. Each source file that is compiled for one
+// kind of processor includes this header once; all names in this header are local to that source file.
 #pragma once
 
 #include "sweep/site_group.hpp"
@@ -10,10 +10,10 @@
 namespace trime::sweep {
 namespace {
 
-/// The requests in the flags of some consecutive sites, one bit per site.
+/// Says which of some consecutive sites must be processed, with one bit per site.
 struct Waking {
-  unsigned awake = 0;  // the rule may move it
-  unsigned wanted = 0; // the rule may move it, or its star must be certified
+  unsigned awake = 0;  // bit set: the update rule may move the site
+  unsigned wanted = 0; // bit set: the rule may move the site, or its star must be certified
 };
 
 TRIME_INLINE Waking waking_at(const SweepTask& task, LocalIndex i, LocalIndex end) {
@@ -25,7 +25,8 @@ TRIME_INLINE Waking waking_at(const SweepTask& task, LocalIndex i, LocalIndex en
   return waking;
 }
 
-/// Returns true if nothing need be done for the sites of the group at i. Returns false at the end of a range.
+/// Returns true if all sites of the group at i sleep and their places are already copied. Returns false for an
+/// incomplete group at the end of a range.
 TRIME_INLINE bool is_copied(const SweepTask& task, LocalIndex i, LocalIndex end) {
   std::uint64_t found = 0, copied = 0;
   static_assert(width <= sizeof found);
@@ -39,10 +40,10 @@ TRIME_INLINE bool is_copied(const SweepTask& task, LocalIndex i, LocalIndex end)
 /// The next places of the sites of a group.
 struct GroupMove {
   V x, y;                     // next places
-  lanes::Pairs<V> lead{};     // leads before the move
-  V next_lead_x, next_lead_y; // leads after the move
-  M is_short;                 // neither the move nor the move with the lead exceeds the cap
-  M rests;                    // see surely_rests
+  lanes::Pairs<V> lead{};     // momentum parts of the steps before the move
+  V next_lead_x, next_lead_y; // momentum parts of the steps after the move
+  M is_short;                 // neither the move alone nor the move plus its lead exceeds the longest allowed move
+  M rests;                    // the site stays at rest, see surely_rests
 };
 
 TRIME_INLINE V clamped(V v, double low, double high) {
@@ -54,8 +55,8 @@ TRIME_INLINE V snapped(const SweepTask& task, V v) {
   return lanes::nearest(v * task.inverse_lattice_step) * task.lattice_step;
 }
 
-/// Adds momentum to the move of a rule and snaps the place to the lattice. Very short moves are not made, and sites
-/// that are not awake do not move.
+/// Adds momentum to the move of the update rule and rounds the next place to the coordinate lattice. Very short moves
+/// are not made, and sites that are not awake do not move.
 TRIME_INLINE GroupMove next_places(const SweepTask& task, const Group& group, const lanes::Pairs<V>& p, V own,
                                    const Move<V>& move, M awake) {
   GroupMove next;
@@ -76,8 +77,7 @@ TRIME_INLINE GroupMove next_places(const SweepTask& task, const Group& group, co
   return next;
 }
 
-/// Returns the lanes of `moved` with a new place that is not known to be clear of the boundary's discs, one bit per
-/// lane.
+/// Returns one bit for each lane of `moved` whose new place may lie in the diametral circle of a boundary edge.
 TRIME_INLINE unsigned guarded_lanes(const SweepTask& task, unsigned moved, V x, V y) {
   unsigned guarded = 0;
   if (!task.guard.states)
@@ -95,7 +95,7 @@ TRIME_INLINE unsigned guarded_lanes(const SweepTask& task, unsigned moved, V x, 
   return guarded;
 }
 
-/// Stores the moves of the lanes `moved`, and lists the sites that are left to the caller.
+/// Stores the moves of the lanes in `moved`, and lists the sites that the caller must treat.
 TRIME_INLINE M store_moves(const SweepTask& task, LocalIndex begin, unsigned certified, unsigned moved,
                            const GroupMove& next, SweepLeftovers& leftovers) {
   const unsigned guarded = guarded_lanes(task, moved, next.x, next.y);
@@ -115,7 +115,7 @@ TRIME_INLINE M store_moves(const SweepTask& task, LocalIndex begin, unsigned cer
   return counted;
 }
 
-/// Stores for the local sites of a group what the next pass must do with them.
+/// Stores for the local sites of a group what the next sweep must do with them.
 TRIME_INLINE void store_flags(const SweepTask& task, LocalIndex begin, unsigned local, unsigned certified,
                               unsigned resting) {
   for (int l = 0; l < width; ++l) {
@@ -128,7 +128,7 @@ TRIME_INLINE void store_flags(const SweepTask& task, LocalIndex begin, unsigned 
   }
 }
 
-/// Sums over the moves of a range, one for each lane.
+/// Sums over the moves of a range of sites, with one sum for each vector lane.
 struct LaneTally {
   std::int64_t moving = 0;
   M power{};
@@ -158,7 +158,7 @@ TRIME_INLINE M mask_of(unsigned lanes) {
   return mask;
 }
 
-/// Moves the local sites of a group that are awake. Returns one bit for each site whose star it cannot certify.
+/// Moves the local sites of a group that are awake. Returns one bit for each site whose star the kernel cannot certify.
 template <template <class, bool> class Formula, bool graded>
 TRIME_INLINE unsigned sweep_group(const SweepTask& task, const Group& group, unsigned awake, LocalIndex begin,
                                   SweepLeftovers& leftovers, LaneTally& tally) {
@@ -179,8 +179,8 @@ TRIME_INLINE unsigned sweep_group(const SweepTask& task, const Group& group, uns
   return group.local & ~certified;
 }
 
-/// Keeps sites of [begin, end) that are asleep or not local in place. Returns one bit for each site whose star must be
-/// certified.
+/// Keeps the places of those sites of [begin, end) that are asleep or not local. Returns one bit for each site whose
+/// star the caller must certify.
 TRIME_INLINE unsigned hold_others(const SweepTask& task, const Group& group, LocalIndex begin, LocalIndex end) {
   unsigned with_stars = 0;
   for (LocalIndex i = begin; i < begin + width && i < end; ++i) {
@@ -197,7 +197,7 @@ TRIME_INLINE unsigned hold_others(const SweepTask& task, const Group& group, Loc
   return with_stars;
 }
 
-/// Appends the sites of the lanes `listed` of the group that begins at `begin`.
+/// Appends to a list the sites of the lanes in `listed`, for the group whose first site is `begin`.
 TRIME_INLINE void append(LocalIndex begin, unsigned listed, LocalIndex* list, std::ptrdiff_t& count) {
   for (LocalIndex i = begin; listed; ++i, listed >>= 1)
     if (listed & 1)
@@ -237,12 +237,12 @@ SweepTally sweep_lanes(const SweepTask& task, LocalIndex begin, LocalIndex end, 
                 : sweep_range<TriangleFormula, false>(task, begin, end, leftovers);
 }
 
-/// Replaces the formula of a rule if nothing moves.
+/// Takes the place of an update rule when stars are only certified and no site moves.
 struct NoFormula {
   TRIME_INLINE void add(const Spoke<V>&, const Spoke<V>&, V, M) {}
 };
 
-/// Returns one bit for each local site of a group whose star it cannot certify.
+/// Returns one bit for each local site of a group whose star the kernel cannot certify.
 template <bool graded>
 TRIME_INLINE unsigned suspects_of(const SweepTask& task, const Group& group) {
   const lanes::Pairs<V> p = load_sites(task.positions, group);
@@ -284,8 +284,8 @@ TRIME_INLINE V at_most(V v, double limit) {
   return lanes::select(v < limit, v, V{} + limit);
 }
 
-/// Finds the lanes whose neighbour comes after the site in lexicographic order. Triangles do not count at boundary
-/// sites.
+/// Finds the lanes whose neighbour comes after the site in lexicographic order. A neighbour on the boundary always
+/// counts as later, because triangles are not counted at boundary sites.
 TRIME_INLINE M comes_after(const SweepTask& task, const Group& group, const Spoke<V>& a, int slot) {
   M after = (a.x > 0.0) | ((a.x == 0.0) & (a.y > 0.0));
   if (group.bordered)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The measurements of a sweep: sums over the stars of the inner sites, for the history and for the rules. Sums of
-// tiles that do not change are kept.
+// Measures edge lengths and triangle quality after a sweep: sums over the stars of the inner sites, for the history of
+// the run and for the update rules. The sums of a tile are kept while the tile does not change.
 #pragma once
 
 #include "sites/site_state.hpp"
@@ -17,8 +17,8 @@
 
 namespace trime::sweep {
 
-/// A histogram of alpha - 1 with eight bins per octave from 2^-20 to 16. Values outside go to the first or the last
-/// bin.
+/// A histogram of alpha - 1 with eight bins per octave from 2^-20 to 16. Smaller values are counted in the first bin,
+/// larger values in the last.
 class AlphaBins {
 public:
   static constexpr std::size_t size = 24 * 8;
@@ -31,10 +31,10 @@ public:
   const std::array<std::int64_t, size>& counts() const { return counts_; }
   std::array<std::int64_t, size>& counts() { return counts_; }
 
-  /// Returns the median of alpha - 1; 0 if there are no values.
+  /// Returns the median of alpha - 1; 0 if no value was added.
   double median() const { return quantile(0.5); }
-  /// Returns the value below which a share of all values lies, by linear interpolation in its bin; 0 if there are no
-  /// values.
+  /// Returns the value below which the given share of all values lies, by linear interpolation in its bin; 0 if no
+  /// value was added.
   double quantile(double share) const {
     std::int64_t all = 0;
     for (const std::int64_t count : counts_)
@@ -52,8 +52,8 @@ public:
 private:
   static constexpr int mantissa_bits = 3;
   static constexpr double lowest = 0x1p-20;
-  /// Returns the bin of a value. It follows from the leading bits of a positive double, which grow with it: the
-  /// exponent, then the mantissa.
+  /// Returns the bin of a value. The bin follows from the leading bits of the double (exponent, then mantissa), which
+  /// increase with the value.
   static std::size_t bin(double excess) {
     constexpr std::uint64_t origin = std::bit_cast<std::uint64_t>(lowest) >> (52 - mantissa_bits);
     const double v = std::clamp(excess, lowest, 15.9);
@@ -69,42 +69,46 @@ private:
   std::array<std::int64_t, size> counts_{};
 };
 
-/// Sums of one sweep over the inner sites of a rank. They are integers, so the order of the terms does not matter.
+/// Sums over the inner sites of a rank after one sweep. All sums are integers, so the order of the terms does not
+/// matter.
 struct SweepSums {
-  FixedSum squared_length_ratio; ///< L^2 / h_ref^2 over the bars seen from inner sites
-  FixedSum squared_size_ratio;   ///< h^2 / h_ref^2 over the same bars, h the mean of both ends
-  FixedSum excess_alpha;         ///< alpha - 1, each triangle with an inner site once
-  AlphaBins alpha_bins;          ///< histogram of the same triangles
+  FixedSum squared_length_ratio; ///< L^2 / h_ref^2, summed over the edges of length L from each inner site
+  FixedSum squared_size_ratio; ///< h^2 / h_ref^2, summed over the same edges, where h is the mean of the target length
+                               ///< at both ends
+  FixedSum excess_alpha;       ///< alpha - 1, summed over the triangles with an inner site, each counted once
+  AlphaBins alpha_bins;        ///< histogram of alpha - 1 over the same triangles
   std::int64_t triangles = 0;
   double max_alpha = 1;
-  FixedSum power; ///< power of the last move: sum of -move . (move + lead before) / h^2, each term at most 2^10
+  FixedSum
+      power; ///< power of the last move: sum of -move . (move + lead before the move) / h^2, each term at most 2^10
 
   void add(const SweepSums& other);
 };
 
-/// Adds the star of the inner site i.
+/// Adds the edges and triangles around the inner site i.
 void measure_star(const sites::StarView& view, LocalIndex i, double reference_size, SweepSums& sums);
 
-/// Returns the sums over the inner owned sites. Threads work on tiles. @param reference_size h_ref, any typical size
+/// Returns the sums over the inner owned sites. Threads work on different tiles.
+/// @param reference_size h_ref, any typical target edge length
 SweepSums measure(const sites::StarView& view, double reference_size);
 
 /// Measures the stars tile by tile, most of them by the vector kernel.
 class StarMeasures {
 public:
-  /// Forgets all tiles. Must be called after sites were sorted.
+  /// Forgets the sums of all tiles. Must be called after each sorting of the sites.
   void reset();
-  /// Notes that sites or stars of owned tile t change. May be called concurrently.
+  /// Notes that sites or stars of owned tile t have changed. May be called concurrently.
   void forget(std::size_t t) {
     if (!is_measured_.empty())
       std::atomic_ref(is_measured_[t]).store(0, std::memory_order_relaxed);
   }
-  /// Returns the sums over the stars of the inner owned sites: those of sweep::measure, in less time. Threads work on
-  /// tiles.
-  /// @param task the task of these sites, without a rule
+  /// Returns the sums over the stars of the inner owned sites. The result equals that of sweep::measure, and takes less
+  /// time to compute. Threads work on different tiles.
+  /// @param task the kernel input for these sites; it needs no update rule
   SweepSums measure(const SweepTask& task, const sites::StarView& view, double reference_size);
 
 private:
-  std::vector<SweepSums> of_tile_;        // by owned tile, if there is enough memory
+  std::vector<SweepSums> of_tile_;        // by owned tile; empty if memory does not suffice
   std::vector<std::uint8_t> is_measured_; // by owned tile: whether it was measured and has not changed since
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Prepares the input of the kernels of a sweep from the sites of a rank.
+// Prepares the input of the sweep kernels from the sites of a rank.
 #pragma once
 
 #include "sites/site_state.hpp"
@@ -9,8 +9,9 @@
 
 namespace trime::sweep {
 
-/// Makes the task, except for the rule. It points into its arguments, and is valid until sites are sorted or ghosts are
-/// fetched; next places and leads are null before BinnedPoints::prepare_advance.
+/// Makes the input of the kernels except for the update rule. The result points into the arguments, and is valid until
+/// sites are sorted or ghosts are fetched. The pointers to next places and leads are null before
+/// BinnedPoints::prepare_advance is called.
 SweepTask make_sweep_task(sites::SiteState& state, const delaunay::StarBuilder& builder, const MoveContext& context,
                           const SiteClasses& classes);
 

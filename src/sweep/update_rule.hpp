@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The update rules: they compute the step of each inner site in a sweep.
+// Declares the update rules: they compute the step of each inner site in a sweep.
 #pragma once
 
 #include "core/state_fields.hpp"
@@ -10,30 +10,31 @@
 
 namespace trime::sweep {
 
-/// The result of a rule for a site: a move to its next iterate, and a lead beyond it in the direction of the last move.
+/// The result of an update rule for a site: a move to its next iterate, and a lead, the momentum part beyond it in the
+/// direction of the last move.
 struct Step {
   geometry::Vec2 move, lead;
 };
 
-/// @brief Computes the step of a site from its own ring alone: from its neighbours in canonical order at their old
-/// places, so all sites may move at once (Jacobi). The result is a pure function of these places, of h, and of sums
-/// over all ranks. Users cannot add rules, because the vector kernels contain every rule.
+/// @brief Computes the step of a site from its neighbours alone, in canonical order and at their old places, so that
+/// all sites may move at once (Jacobi). The step is a pure function of these places, of the target edge length h, and
+/// of sums over all ranks. Users cannot add rules, because the vector kernels contain every rule.
 class UpdateRule {
 public:
   virtual ~UpdateRule() = default;
-  /// Passes the sums over all ranks to the rule, before the sites move.
+  /// Receives the sums over all ranks before the sites move.
   virtual void begin_sweep(const SweepSums& sums) = 0;
-  /// Returns the step of site i, which is not capped. Called concurrently.
+  /// Returns the step of site i, which may be longer than the largest allowed move. Called concurrently.
   virtual Step step(const sites::StarView& view, LocalIndex i) const = 0;
-  /// Returns the parameters for the vector kernels, which move most sites and give the same bits.
+  /// Returns the parameters of the rule for the vector kernels, which move most sites and compute bit-identical steps.
   virtual RuleParameters parameters() const = 0;
-  /// Visits the members that a checkpoint keeps, before begin_sweep.
+  /// Visits the members that are stored in a checkpoint. Called before begin_sweep.
   virtual void visit(StateFields&) {}
 };
 
-/// @brief DistMesh (Persson and Strang 2004) as in TriMe++: bars repel where they are shorter than L0 = 1.2 h sqrt(sum
-/// L^2 / sum h^2), where h is the mean of both ends. They move by explicit Euler steps of 0.3. Bars between two
-/// boundary sites are not in the sums, because the boundary is held.
+/// @brief The rule of DistMesh (Persson and Strang 2004) as in TriMe++. Each edge is a bar that repels its ends if it
+/// is shorter than L0 = 1.2 h sqrt(sum L^2 / sum h^2), where h is the mean at both ends. Sites move by explicit Euler
+/// steps of 0.3. Edges between two boundary sites are left out of the sums, because the boundary does not move.
 class DistMeshRule final : public UpdateRule {
 public:
   void begin_sweep(const SweepSums& sums) override;
@@ -45,14 +46,14 @@ private:
   double length_scale_ = SweepRules::bar_pressure; // L0 / h
 };
 
-/// @brief Accelerates a descent (Nesterov 1983). From the iterate x' = y + move(y) the next move is taken at y' = x' +
-/// b (x' - x). Here b = min(SweepRules::largest_momentum, k/(k+3)), and k starts again from 0 when the last moves went
-/// uphill (sum of (y - x').(x' - x) / h^2 > 0; O'Donoghue and Candes 2015). The rule uses the sums of the last sweep; a
-/// restart one sweep later is early enough.
+/// @brief Accelerates the moves of a rule (Nesterov 1983). After the iterate x' = y + move(y), the next move starts
+/// from y' = x' + b (x' - x). Here b = min(SweepRules::largest_momentum, k/(k+3)). k starts again from 0 when the last
+/// moves went uphill, that is, when the sum of (y - x').(x' - x) / h^2 is positive (O'Donoghue and Candes 2015). That
+/// sum is the one of the last sweep; a restart one sweep later is early enough.
 class Momentum {
 public:
   void begin_sweep(const SweepSums& sums);
-  /// Returns the step of site i, where `move` is its move without momentum.
+  /// Returns the step of site i, where `move` is the move of the rule without momentum.
   Step step(const sites::StarView& view, LocalIndex i, geometry::Vec2 move) const;
   double factor() const { return factor_; }
   void visit(StateFields& fields) { fields.field("momentum_age", age_); }
@@ -64,16 +65,16 @@ private:
 
 /// @brief Centroidal Voronoi tessellation by accelerated Lloyd steps (see Momentum).
 ///
-/// Each site goes to the centroid of its Voronoi cell under the weight h^-4. The cell is exact: it is the polygon of
-/// circumcentres of the star. The discs of the chords are empty, so no cell of an inner site leaves the shape. Why 4: a
-/// centroidal tessellation minimises the sum over cells of the integral of w |x - site|^2. A cell of spacing d has
-/// about w d^4, and in the limit of many sites all cells have the same share (Gersho 1979; Du, Faber and Gunzburger
-/// 1999). So d grows like w^(-1/4), and w = h^-4 makes it proportional to h. The weight h^-2 of TriMe++ drifts towards
-/// d ~ sqrt(h).
+/// Each site goes to the centroid of its Voronoi cell under the weight h^-4. The cell is the polygon of the
+/// circumcentres of the star. Because the diametral circles of the boundary edges are empty, no cell of an inner site
+/// leaves the shape. Why the exponent is 4: a centroidal tessellation minimises the sum over cells of the integral of w
+/// |x - site|^2. A cell of width d contributes about w d^4, and in the limit of many sites all cells contribute equally
+/// (Gersho 1979; Du, Faber and Gunzburger 1999). So d is proportional to w^(-1/4), and w = h^-4 makes d proportional to
+/// h. With the weight h^-2 of TriMe++, the sites drift towards a spacing d proportional to sqrt(h).
 ///
-/// The weight is linear over each triangle (site, circumcentre, circumcentre); at a circumcentre it follows from the
-/// mean of h at the three sites. So the size field is not evaluated and no memory is allocated; a uniform weight is
-/// exact.
+/// The weight is interpolated linearly over each triangle (site, circumcentre, circumcentre); its value at a
+/// circumcentre follows from the mean of h at the three corners. So the size field is not evaluated, and no memory is
+/// allocated. For a uniform weight the centroid is exact.
 class CvdRule final : public UpdateRule {
 public:
   /// @param exponent exponent of 1/h in the weight, 0..8
@@ -82,7 +83,7 @@ public:
   Step step(const sites::StarView& view, LocalIndex i) const override;
   RuleParameters parameters() const override;
   void visit(StateFields& fields) override { momentum_.visit(fields); }
-  /// Returns the centroid of the cell of site i, relative to the site; zero if the star has a gap.
+  /// Returns the centroid of the Voronoi cell of site i, relative to the site; zero if the star has a gap.
   geometry::Vec2 centroid(const sites::StarView& view, LocalIndex i) const;
 
 private:
@@ -90,22 +91,22 @@ private:
   Momentum momentum_;
 };
 
-/// @brief Moves every site towards the minimum of an energy of the triangles around it, with its neighbours held.
+/// @brief Moves every site towards the minimum of an energy of the triangles around it, with its neighbours fixed.
 ///
 /// The energy of a triangle of area A is S / (4 sqrt(3) A) + k (A/W + W/A - 2). S is the sum of its squared sides, so
 /// the first term is 1 for an equilateral triangle of any size and grows with its shear (Bank and Smith 1997). W is the
-/// area that h asks for (the mean of h at its corners, scaled to the mean edge of the whole mesh). Each site makes 0.7
-/// of a Newton step with exact second derivatives, which are positive definite; the factor is needed because all sites
-/// move at once.
+/// wanted area, from the mean of h at the corners, scaled to the mean edge of the whole mesh. Each site makes 0.7 of a
+/// Newton step with exact second derivatives, which are positive definite. The step is damped because all sites move at
+/// once.
 ///
-/// Why it comes after the cells: where h varies, a mesh must hold dislocations, and between them it is strained. alpha
-/// sees shear alone. Voronoi cells resist a change of area 7 times as much as shear, so they leave the strain as shear.
-/// A dislocation in a material without resistance to a change of area has no shear (its displacement is b/(2 pi i) log
-/// z, which is analytic). With k = 1/4 the resistance to a change of area is half that to shear: alpha - 1 falls to
-/// less than half, and the standard deviation of L / (s h) grows by a sixth at most. The places of the dislocations are
-/// better left to the cells.
+/// Why this rule follows the Voronoi rule: where h varies, a mesh must contain dislocations, and between them it is
+/// strained. alpha depends only on the shear of a triangle. Voronoi cells resist a change of area 7 times as much as
+/// shear, so they leave the strain as shear. A dislocation in a material without resistance to a change of area has no
+/// shear (its displacement is b/(2 pi i) log z, which is analytic). With k = 1/4 the resistance to a change of area is
+/// half that to shear: alpha - 1 falls to less than half, and the standard deviation of L / (s h) grows by at most a
+/// sixth. The Voronoi rule is better at placing the dislocations.
 ///
-/// W is constant during a step, so a mesh with A = W everywhere does not change.
+/// The wanted area W is constant during a step, so a mesh with A = W everywhere does not change.
 class TriangleRule final : public UpdateRule {
 public:
   void begin_sweep(const SweepSums& sums) override;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Refines a coarse chain on a zero set to a polygon that follows it. Chords are halved until they are near enough,
-// corners are found to full accuracy, and superfluous vertices are removed.
+// Refines a coarse closed polygon on a zero set until it follows the zero set closely. Edges (chords) are halved until
+// they are near enough, corners are computed to full accuracy, and superfluous vertices are removed.
 #pragma once
 
 #include "tracing/level_function.hpp"
@@ -10,30 +10,31 @@
 
 namespace trime::tracing {
 
-/// Tolerances that give the accuracy of traced_part, as lengths.
+/// The tolerances that give the accuracy of traced_part, as lengths.
 struct TraceTolerances {
   explicit TraceTolerances(double container_side) : side(container_side) {}
-  double side;                      ///< longer side of the container
-  double chord = 2.5e-7 * side;     ///< largest deviation of a chord during refinement; twice that during thinning
+  double side; ///< longer side of the container
+  double chord =
+      2.5e-7 * side; ///< largest deviation of a chord from the curve during refinement; twice that after thinning
   double straight = 1e-12 * side;   ///< a deviation up to this counts as zero
   double shortest = 0x1p-22 * side; ///< chords below this length are not halved
-  double corner = 0x1p-24 * side;   ///< distance from a corner where its arms are examined finally
-  double zero = 0x1p-50 * side;     ///< tolerance of a zero on a line
+  double corner = 0x1p-24 * side;   ///< distance from a corner at which its two sides are examined last
+  double zero = 0x1p-50 * side;     ///< tolerance for the position of a zero on a line
 };
 
 struct CurveVertex {
   geometry::Vec2 place;
-  bool keep = false; ///< the vertex is a corner, or the end of a straight side
+  bool keep = false; ///< true for corners and for the ends of straight sides
 };
 
 class CurveRefiner {
 public:
-  /// @param resolution resolution of the chains, for messages
+  /// @param resolution resolution of the grid with which the chains were found, for messages
   CurveRefiner(const LevelFunction& function, const TraceTolerances& tolerances, double resolution)
       : function_(function), tolerances_(tolerances), resolution_(resolution) {}
 
-  /// @brief Returns a closed polygon along the curve. @param chain is closed, has the interior on its left and at least
-  /// three vertices
+  /// @brief Returns a closed polygon along the curve.
+  /// @param chain a closed polygon with the interior on its left and at least three vertices
   /// @throws GeometryError with a place if a chord, or all chains so far, would need too many vertices
   std::vector<geometry::Vec2> refine(const std::vector<geometry::Vec2>& chain);
 
@@ -57,8 +58,8 @@ private:
   std::size_t vertices_ = 0; // number of vertices of all chains so far, before thinning
 };
 
-/// @brief Removes vertices of a closed polygon. Runs on one line become one segment each, and the rest becomes chords
-/// whose distance from the removed vertices is at most `chord`. Vertices marked `keep` stay.
+/// @brief Removes vertices of a closed polygon. Vertices on a line become one segment; other sequences of vertices
+/// become chords whose distance from the removed vertices is at most `chord`. Vertices marked `keep` stay.
 std::vector<geometry::Vec2> thinned(std::vector<CurveVertex> polygon, double straight, double chord);
 
 } // namespace trime::tracing

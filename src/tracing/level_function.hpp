@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The function of a traced shape. It is continued a little beyond the container so that its zero set is closed. Also
-// searches a zero on a segment.
+// The function of a traced shape, extended a little beyond the container so that its zero set is closed. Also finds a
+// zero on a segment.
 #pragma once
 
 #include "core/thread_loop.hpp"
@@ -13,10 +13,12 @@
 
 namespace trime::tracing {
 
-/// The function of a traced shape, which is negative inside; zero counts as outside. It is as thread-safe as the shape.
+/// The function of a traced shape, which is negative inside; zero counts as outside. The object is as thread-safe as
+/// the function of the shape.
 class LevelFunction {
 public:
-  /// Thrown for a value that is not finite. Loops turn it into one error, the same for any number of threads.
+  /// Thrown for a value that is not finite. Loops over many points turn it into one error, the same for any number of
+  /// threads.
   struct NotFinite {
     geometry::Vec2 place;
     double value;
@@ -25,11 +27,12 @@ public:
   LevelFunction(const std::string& name, const Shape& shape, const geometry::Box& container)
       : name_(name), shape_(shape), container_(container) {}
 
-  /// @brief Makes the function rise outside the container: by `slope` per length, and above all values that it has
-  /// inside (down to `lowest`) before the distance `width`.
+  /// @brief Makes the function rise outside of the container: by `slope` per unit of distance, and by more than
+  /// -`lowest` before the distance `width`, so that it is positive there. `lowest` is the lowest value inside.
   void build_wall(double slope, double lowest, double width);
 
-  /// Returns the value at p; outside the container, the value at its nearest point plus the wall. @throws NotFinite
+  /// Returns the value at p. Outside of the container, this is the value at the nearest point inside plus the rise.
+  /// @throws NotFinite if the function is not finite
   double operator()(geometry::Vec2 p) const {
     const geometry::Vec2 nearest{std::fmin(std::fmax(p.x, container_.min.x), container_.max.x),
                                  std::fmin(std::fmax(p.y, container_.min.y), container_.max.y)};
@@ -40,10 +43,12 @@ public:
   }
   bool inside(geometry::Vec2 p) const { return (*this)(p) < 0; }
 
-  /// @brief Returns the zero between a and b to within `tolerance`. @pre exactly one of value_a, value_b is negative
+  /// @brief Returns the zero between a and b with an error of at most `tolerance`.
+  /// @pre exactly one of value_a, value_b is negative
   geometry::Vec2 crossing(geometry::Vec2 a, double value_a, geometry::Vec2 b, double value_b, double tolerance) const;
 
-  /// Calls body(item) for item in [0, n) on all threads. @throws GeometryError for the lowest item that is not finite
+  /// Calls body(item) for each item in [0, n) on all threads.
+  /// @throws GeometryError for the lowest item whose value is not finite
   template <class Body>
   void for_all(std::size_t n, int chunk, const Body& body) const {
     std::vector<std::optional<NotFinite>> bad((n + chunk - 1) / chunk);

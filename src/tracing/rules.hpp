@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tuned numbers of the module tracing, which turns functions into curves.
+// The tuned numbers of the module tracing, which turns functions into polygons.
 #pragma once
 
 #include <cstddef>
@@ -8,13 +8,14 @@ namespace trime::tracing {
 
 /// The numbers of tracing and thinning the zero set of a function.
 struct TracingRules {
-  /// [halvings] Number of halvings from the coarse grid, which is examined first, to the fine one. Not measured.
+  /// [halvings] The coarse grid, which is examined first, is halved this many times to get the fine grid. Not measured.
   static constexpr int grid_levels = 2;
   /// [cells] Smallest number of cells of the coarse grid along a side. Not measured.
   static constexpr int fewest_coarse_cells = 16;
-  /// [cells] Largest number of cells of the coarse grid along a side: it bounds time and memory. Not measured.
+  /// [cells] Largest number of cells of the coarse grid along a side. This limit bounds time and memory. Not measured.
   static constexpr int most_coarse_cells = 4096;
-  /// [1] Largest deviation of the curve from a chord, over the length of the chord. It keeps turns below 9 degrees.
+  /// [1] Largest deviation of the curve from a chord, divided by the length of the chord. This limit keeps turns of the
+  /// polygon below 9 degrees.
   static constexpr double stray_share = 0.02;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// HDF5 files of the program, damaged as the bytes of the fuzzer say. Whole files as input would be refused for their
-// first bytes nearly always; here each input is a list of changes to a good file.
+// Makes damaged HDF5 files of the program for fuzzing. Random bytes in place of a whole file would nearly always be
+// refused because of their first bytes; so each input of the fuzzer is a list of changes to a good file.
 #pragma once
 
 #include "support/temporary_directory.hpp"
@@ -12,22 +12,23 @@
 
 namespace trime::fuzz {
 
-/// MPI for the whole process, once; Open MPI leaves the signals to libFuzzer.
+/// Starts MPI once for the whole process. Open MPI must leave the signals to libFuzzer.
 void start_mpi();
 
-/// @brief A file that a run of the program leaves, made at the start of the fuzzer, so that it is never out of date.
+/// @brief A file written by a run of the program. The run is made at the start of the fuzzer, so that the file has the
+/// present format.
 class DamagedFile {
 public:
-  /// @param is_checkpoint the run is stopped at its first checkpoint, and that is the file; else the mesh file
+  /// @param is_checkpoint true for a checkpoint, at which the run is stopped; false for a mesh file
   explicit DamagedFile(bool is_checkpoint);
 
-  /// @brief Writes a copy with the changes that `data` describes: datasets and attributes that are replaced by ones of
-  /// another type, shape or layout, values that are overwritten, objects that are moved or gone, a file that is cut
-  /// off, and bytes outside of what HDF5 needs to find its way.
-  /// @return its path, the same each time
+  /// @brief Writes a damaged copy of the file; `data` describes the changes. Datasets and attributes are replaced by
+  /// others with another type, shape or layout, values are overwritten, objects are moved or removed, the file is cut
+  /// off, and bytes are changed that HDF5 does not need to open the file.
+  /// @return the path of the copy, which is the same in each call
   const std::string& damage(const std::uint8_t* data, std::size_t size);
   const comm::Communicator& comm() const { return comm_; }
-  /// For files that are written; the fuzzer removes it at its end.
+  /// Returns a directory for files that a target writes; it is removed at the end of the process.
   const std::string& directory() const { return directory_.path(); }
 
 private:
@@ -35,15 +36,15 @@ private:
 
   comm::Communicator comm_;
   test::TemporaryDirectory directory_;
-  std::string path_, bytes_; // of the damaged file; of the good one
+  std::string path_, bytes_; // path of the damaged file; bytes of the good file
   std::vector<std::string> datasets_, groups_;
 };
 
-/// What a target damages: it says so itself.
+/// Each fuzz target defines this constant: true if it damages checkpoints, false if it damages mesh files.
 extern const bool damages_checkpoints;
 
-/// @brief The one of this process. A target with it has LLVMFuzzerInitialize from here: the run is made before the
-/// clock of the first input begins, since MPI takes long to start on a busy machine.
+/// @brief Returns the good file of this process. LLVMFuzzerInitialize makes it before the time of the first input is
+/// measured, because MPI takes long to start on a busy machine.
 DamagedFile& good_file();
 
 } // namespace trime::fuzz

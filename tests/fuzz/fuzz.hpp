@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the fuzz targets share. A target hands foreign bytes to the program; only the errors that the program documents
-// may come out. Anything else ends the process, and libFuzzer keeps the bytes.
+// Functions that several fuzz targets use. A target passes arbitrary bytes to the program. The program may throw only
+// the errors that it documents; anything else ends the process, and libFuzzer saves the bytes.
 #pragma once
 
 #include "trime/contours/contour.hpp"
@@ -12,7 +12,8 @@
 
 namespace trime::fuzz {
 
-/// Runs `work`, which may throw what a user's mistake causes. @return did it go through?
+/// Runs `work`, which may throw the errors that a mistake of a user causes.
+/// @return whether it ended without an error
 template <class Work>
 bool survives(const Work& work) {
   try {
@@ -32,9 +33,9 @@ inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
-/// @brief What the program does with a contour that was read: it is sent to other ranks, fitted into a container and
-/// becomes a shape, in a plain and in a periodic container. Contours of many vertices are only sent: the tests of
-/// shapes have larger ones, and here many small ones are tried.
+/// @brief Uses a contour in the same way as the program: sends it to other ranks, fits it into a container and makes a
+/// shape of it, in a plain and in a periodic container. Contours with many vertices are only sent, because the fuzzer
+/// should try many small ones; other tests use large contours.
 void use(const contours::Contour& contour);
 
 } // namespace trime::fuzz

@@ -12,6 +12,7 @@ import sys
 import unittest
 
 import prose
+import sample_sentences
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
@@ -156,6 +157,11 @@ class Sample(unittest.TestCase):
         self.assertNotEqual(drawn[0], drawn[2])
         self.assertEqual([line.split(" of ")[0] for line in drawn[0].splitlines() if line.startswith("# ")],
                          ["# page: 3", "# message: 2", "# header: 2"])
+
+    def test_tags_become_words(self):
+        header = "/// @param a, b Two.\n  /// @throws Error\n/// @brief @pre x\n"
+        self.assertEqual(sample_sentences.with_spoken_tags(header),
+                         "/// @note parameter a, b: Two.\n  /// @note throws Error\n/// @brief @pre x\n")
 
 
 class Prose(unittest.TestCase):

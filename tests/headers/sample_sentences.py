@@ -11,6 +11,7 @@ import argparse
 import io
 import pathlib
 import random
+import re
 import subprocess
 import tarfile
 
@@ -37,11 +38,19 @@ def kind_of(name, passage):
     return "header" if name.endswith(".hpp") else None
 
 
+def with_spoken_tags(text):
+    """The text of a header with words in place of tags, which a reader sees and prose.passages removes."""
+    text = re.sub(r"(// ?)@param (\w+(?:, \w+)*) ", r"\1@note parameter \2: ", text)
+    for tag, word in (("throws", "throws"), ("return", "returns"), ("pre", "requires that"), ("post", "afterwards")):
+        text = re.sub(rf"(// ?)@{tag} ", rf"\1@note {word} ", text)
+    return text
+
+
 def pools(revision):
     """Lists of `file:line: sentence` of the revision, by kind."""
     found = {"page": [], "message": [], "header": []}
     for name, text in files(revision):
-        for passage in prose.passages(name, text):
+        for passage in prose.passages(name, with_spoken_tags(text) if name.endswith(".hpp") else text):
             kind = kind_of(name, passage)
             for sentence in prose.sentences(passage.text) if kind else ():
                 if prose.count_words(sentence) > 3:

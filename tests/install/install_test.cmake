@@ -1,7 +1,7 @@
 # The steps of the install test; each must succeed. Variables: see CMakeLists.txt beside this file.
 set(prefix "${WORK}/prefix")
 file(REMOVE_RECURSE "${prefix}" "${WORK}/build" "${WORK}/examples")
-file(REMOVE_RECURSE "${WORK}/ten_lines" "${WORK}/bare")
+file(REMOVE_RECURSE "${WORK}/ten_lines" "${WORK}/bare" "${WORK}/diffusion")
 file(MAKE_DIRECTORY "${WORK}/bare")
 function(step)
   execute_process(COMMAND ${ARGN} WORKING_DIRECTORY "${WORK}/bare" RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
@@ -39,6 +39,28 @@ step("${MPIEXEC}" -n 2 "${WORK}/examples/05_restart") # reads it
 if(NOT output STREQUAL expected)
   message(FATAL_ERROR "05_restart, expected:\n${expected}\nfound:\n${output}")
 endif()
+
+# The program of the page on examples, in a bare folder: the same output on any number of ranks.
+file(READ "${EXAMPLES}/README.md" page)
+foreach(part "cmake;CMakeLists.txt" "cpp;diffusion.cpp")
+  list(GET part 0 language)
+  list(GET part 1 name)
+  if(NOT page MATCHES "```${language}\n([^`]*)```")
+    message(FATAL_ERROR "${EXAMPLES}/README.md has no block of ${language}")
+  endif()
+  file(WRITE "${WORK}/diffusion/source/${name}" "${CMAKE_MATCH_1}")
+endforeach()
+step(${CMAKE_COMMAND} -S "${WORK}/diffusion/source" -B "${WORK}/diffusion/build" -G "${GENERATOR}"
+     "-DCMAKE_PREFIX_PATH=${prefix}" "-DCMAKE_CXX_COMPILER=${COMPILER}" "-DCMAKE_CXX_FLAGS=${FLAGS}")
+step(${CMAKE_COMMAND} --build "${WORK}/diffusion/build")
+step("${WORK}/diffusion/build/diffusion")
+set(expected "${output}")
+foreach(ranks 2 3)
+  step("${MPIEXEC}" -n ${ranks} "${WORK}/diffusion/build/diffusion")
+  if(NOT output STREQUAL expected OR NOT output MATCHES "points, heat 0")
+    message(FATAL_ERROR "diffusion on ${ranks} ranks, expected:\n${expected}\nfound:\n${output}")
+  endif()
+endforeach()
 
 # The ten lines in a bare folder: their file is that of the program, and its tools accept it.
 set(program "${prefix}/bin/trime_mpi")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Boundary sites after some edits, as BoundaryChain carries them out.
+// Applies edits to boundary sites with a BoundaryChain, and returns the result.
 #pragma once
 
 #include "polygon/boundary_chain.hpp"
@@ -9,8 +9,9 @@
 namespace trime::testing {
 
 struct EditedBoundary {
-  polygon::BoundarySites sites;      ///< numbered along the loops
-  std::vector<LocalIndex> new_index; ///< by the old index, then of the new sites in the order of BoundaryChain
+  polygon::BoundarySites sites; ///< the sites after the edits, numbered along the loops
+  std::vector<LocalIndex>
+      new_index; ///< new index of each old site, then of each new site in the order of BoundaryChain
 };
 inline EditedBoundary edited(const polygon::BoundarySites& sites, const polygon::BoundaryCurve& curve,
                              const std::vector<polygon::BoundaryEdit>& edits) {
@@ -20,7 +21,8 @@ inline EditedBoundary edited(const polygon::BoundarySites& sites, const polygon:
   return {chain.sites(), std::move(new_index)};
 }
 
-/// The loop of a site, where sites are numbered along the loops.
+/// Returns the loop of a site.
+/// @pre sites are numbered along the loops
 inline LocalIndex loop_of(const polygon::BoundarySites& sites, LocalIndex site) {
   LocalIndex loop = 0;
   while (sites.loop_start[static_cast<std::size_t>(loop) + 1] <= site)

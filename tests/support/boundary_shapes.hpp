@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Boundaries built by hand for the tests: polygons and circles on the lattice of the unit square, nothing normalised.
+// Makes boundaries for the tests without the code for shapes: polygons and circles with vertices on the coordinate
+// lattice of the unit square.
 #pragma once
 
 #include "core/angle.hpp"
@@ -22,7 +23,8 @@ inline double signed_area(const std::vector<geometry::Vec2>& polygon) {
   return 0.5 * twice;
 }
 
-/// Straight pieces between the snapped points; counter-clockwise is outer.
+/// Returns a loop of straight pieces between the points, rounded to the lattice. A counter-clockwise loop is an outer
+/// loop.
 inline geometry::Loop polygon_loop(std::vector<geometry::Vec2> points, int tag = 1) {
   geometry::Loop loop;
   for (geometry::Vec2& p : points)
@@ -38,7 +40,7 @@ inline geometry::Loop polygon_loop(std::vector<geometry::Vec2> points, int tag =
   return loop;
 }
 
-/// `arcs` equal arcs; clockwise (a hole) if `hole`.
+/// Returns a circle as a loop of `arcs` equal arcs; it is clockwise if `hole` is true.
 inline geometry::Loop circle_loop(geometry::Vec2 center, double radius, bool hole = false, int arcs = 4, int tag = 1) {
   geometry::Loop loop;
   loop.outer = !hole;

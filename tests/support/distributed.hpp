@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Help for tests on several ranks: values of all ranks together, and sites shared out.
+// Helps tests on several ranks: collects values of all ranks, and distributes sites over the ranks.
 #pragma once
 
 #include "support/point_sets.hpp"
@@ -9,7 +9,7 @@
 
 namespace trime::testing {
 
-/// The values of all ranks one after the other, on every rank. Collective.
+/// Returns the values of all ranks, one rank after the other, on every rank. Collective.
 template <class T, class Allocator>
 std::vector<T> gather_all(const comm::Communicator& comm, const std::vector<T, Allocator>& values) {
   std::string bytes(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
@@ -20,7 +20,8 @@ std::vector<T> gather_all(const comm::Communicator& comm, const std::vector<T, A
   return comm::from_bytes<T>(std::as_bytes(std::span<const char>(all)));
 }
 
-/// Sites k with k mod size == rank: belongs to nobody's tiles in particular.
+/// Returns for this rank the sites with the numbers k for which k mod size == rank. So ranks get sites in tiles that
+/// they do not own.
 inline mesh::SiteList dealt(const comm::Communicator& comm, const mesh::SiteList& sites) {
   mesh::SiteList mine;
   for (std::size_t k = static_cast<std::size_t>(comm.rank()); k < sites.size();

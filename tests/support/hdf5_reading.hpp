@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Datasets of a finished file, by plain HDF5 calls.
+// Reads datasets of a finished HDF5 file by calls of the HDF5 library alone.
 #pragma once
 
 #include "io/hdf5_handle.hpp"
@@ -12,7 +12,7 @@
 
 namespace trime::test {
 
-/// Reads one dataset on one rank and looks at its shape and type in the file.
+/// Reads one dataset on one rank, and also returns its shape and its type in the file.
 template <class T>
 std::vector<T> read(hid_t file, const char* path, hid_t type, const std::vector<hsize_t>& shape) {
   const io::Hdf5Dataset dataset(H5Dopen2(file, path, H5P_DEFAULT), path);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sites of a boundary laid out by one process alone.
+// Places the sites of a boundary in one process, without communication.
 #pragma once
 
 #include "boundary/boundary_refiner.hpp"
@@ -10,8 +10,9 @@
 
 namespace trime::testing {
 
-/// The same sites as of boundary::make_boundary_sites, by one refiner without communication. By default every corner
-/// and loop is kept. @throws GeometryError as that
+/// Returns the same sites as boundary::make_boundary_sites, made by one refiner without communication. By default every
+/// corner and loop is kept.
+/// @throws GeometryError under the same conditions
 inline polygon::BoundarySites make_boundary_sites(const geometry::Boundary& boundary, const sizing::SizeField& size,
                                                   const geometry::Lattice& lattice, double corner_angle,
                                                   std::span<const geometry::Vec2> inside = {},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A small real mesh, and its slabs on any number of ranks, empty ones included.
+// Makes a small mesh and distributes it over any number of ranks, so that some ranks hold nothing.
 #pragma once
 
 #include "core/random.hpp"
@@ -12,7 +12,7 @@
 
 namespace trime::test {
 
-/// Uneven shares in which about a third of the ranks hold nothing.
+/// Divides `total` rows unevenly: about a third of the ranks get nothing.
 inline mesh::Slab share(const comm::Communicator& comm, std::int64_t total, std::uint64_t seed, std::int64_t& rows) {
   std::vector<std::int64_t> weights;
   for (int rank = 0; rank < comm.size(); ++rank) {
@@ -30,15 +30,16 @@ inline mesh::Slab share(const comm::Communicator& comm, std::int64_t total, std:
   return {first, total};
 }
 
-/// The rows of a slab.
+/// Returns the rows of one slab from an array of the whole mesh.
 template <class Vector>
 Vector cut(const Vector& whole, const mesh::Slab& slab, std::int64_t rows) {
   const auto first = whole.begin() + static_cast<std::ptrdiff_t>(slab.first);
   return Vector(first, first + static_cast<std::ptrdiff_t>(rows));
 }
 
-/// A square of n x n cells, each halved, without its middle cell (n odd): one outer loop of tag 1, a hole of tag 2.
-/// The whole mesh on each caller. @pre n odd, n >= 3
+/// Returns the mesh of a square of n x n cells, each cut into two triangles, without the middle cell. It has one outer
+/// loop with tag 1, and a hole with tag 2. Each caller gets the whole mesh.
+/// @pre n is odd, n >= 3
 inline mesh::DistributedMesh holed_square(int n) {
   mesh::DistributedMesh mesh;
   const auto id = [n](int column, int row) { return static_cast<GlobalId>(row * (n + 1) + column); };
@@ -82,7 +83,7 @@ inline mesh::DistributedMesh holed_square(int n) {
   return mesh;
 }
 
-/// This rank's part of a whole mesh; every seed cuts it elsewhere.
+/// Returns this rank's part of a whole mesh. Different seeds give different divisions.
 inline mesh::DistributedMesh slabs_of(const mesh::DistributedMesh& whole, const comm::Communicator& comm,
                                       std::uint64_t seed) {
   mesh::DistributedMesh mesh;

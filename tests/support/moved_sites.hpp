@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Help for tests that move all sites of a state at once.
+// Helps tests that move all sites of a state at once.
 #pragma once
 
 #include "sites/site_state.hpp"
@@ -10,8 +10,9 @@
 
 namespace trime::testing {
 
-/// sites[i] is what becomes of owned site i, or it goes where deleted[i] is set; more sites than are owned are new.
-/// Only positions may differ from the owned sites. Collective.
+/// Moves owned site i to the position of sites[i], or removes it if deleted[i] is set. Further elements of `sites` are
+/// new sites. Collective.
+/// @pre except for their positions, the elements equal the owned sites
 inline void move_sites(sites::SiteState& state, std::span<const mesh::Site> sites,
                        std::span<const std::uint8_t> deleted) {
   const std::size_t owned = static_cast<std::size_t>(state.points().owned());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sites for the clean-up in a container without boundary, over the ranks.
+// Makes sites for tests of the clean-up, distributed over the ranks, in a container without boundary.
 #pragma once
 
 #include "cleanup/cleanup_sites.hpp"
@@ -7,7 +7,8 @@
 
 namespace trime::testing {
 
-/// What cleanup::CleanupSites needs. @pre a size for `state`
+/// The objects that cleanup::CleanupSites needs.
+/// @pre `state` knows the size at its sites
 struct PatchSites {
   PatchSites(const comm::Communicator& comm, const mesh::SiteList& all, const sizing::SizeField& size, double spacing,
              const geometry::Periods& periods)

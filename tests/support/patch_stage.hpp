@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A patch by hand: sites around a place, and what the optimizer makes of them.
+// Makes a patch of the clean-up from given sites, and checks the edits that the optimizer makes in it.
 #pragma once
 
 #include "cleanup/patch_optimizer.hpp"
@@ -33,14 +33,14 @@ using Kind = EditKind;
 
 constexpr double h = 0.03125;
 
-/// As PatchOptimizer::improve takes them.
+/// Sorts the sites in the order that PatchOptimizer::improve requires.
 inline void sort_for_a_patch(std::vector<PatchSite>& sites) {
   std::sort(sites.begin(), sites.end(), [](const PatchSite& a, const PatchSite& b) {
     return geometry::lexicographically_less(a.position, b.position);
   });
 }
 
-/// Sites of a patch, and all that the optimizer needs.
+/// The sites of a patch, and all objects that the optimizer needs.
 struct Stage {
   explicit Stage(Boundary of, double size = h)
       : boundary(std::move(of)), sites_on(make_boundary_sites(boundary, UniformSize(size), unit_lattice(), 30)),
@@ -58,17 +58,18 @@ struct Stage {
     const LocalIndex loop = loop_of(sites_on, k);
     return {loop, site.corner, curve.arc(loop, site), 0, site.next};
   }
-  /// What edits make of the boundary.
+  /// Returns the boundary after these edits.
   BoundarySites edited_boundary(const std::vector<BoundaryEdit>& edits) const {
     return edited(sites_on, curve, edits).sites;
   }
-  /// Edits the boundary; then its sites take part in patches.
+  /// Edits the boundary, and adds its sites to the sites of patches.
   void add_boundary_with(const std::vector<BoundaryEdit>& edits) {
     sites_on = edited_boundary(edits);
     guard = BoundaryGuard(sites_on, unit_lattice());
     add_boundary();
   }
-  /// Takes the site nearest to p out. @return where it was
+  /// Removes the site nearest to p.
+  /// @return the position of the removed site
   Vec2 take_nearest(Vec2 p) {
     const auto nearest = std::min_element(sites.begin(), sites.end(), [&](const PatchSite& a, const PatchSite& b) {
       return geometry::squared_length(a.position - p) < geometry::squared_length(b.position - p);
@@ -86,7 +87,7 @@ struct Stage {
     sort_for_a_patch(near);
     PatchOptimizer optimizer(sites_on, curve, unit_lattice(), options);
     const std::vector<SiteEdit> edits = optimizer.improve(center, h, near, budget).edits;
-    optimizer.improve(near.front().position, h, near, budget); // something else in between
+    optimizer.improve(near.front().position, h, near, budget); // the optimizer improves another patch in between
     EXPECT_TRUE(equal(edits, optimizer.improve(center, h, near, budget).edits)) << "not a function of the sites";
     expect_allowed(edits, center);
     return edits;
@@ -98,9 +99,9 @@ struct Stage {
     });
   }
 
-  /// Corners and fixed sites stay, what comes from a site comes from one, boundary sites lie on their curve, and
-  /// nothing changes near the rim (a new site may move by h from where it begins: the scored triangles of the next
-  /// patch are farther).
+  /// Checks edits: corners and fixed sites stay, each edit of a site comes from exactly one site, boundary sites lie on
+  /// their curve, and nothing changes near the rim of the patch. A new site may move by h from its first place, because
+  /// the triangles of the next patch are farther away.
   void expect_allowed(const std::vector<SiteEdit>& edits, Vec2 center) const {
     for (const SiteEdit& edit : edits) {
       EXPECT_EQ(edit.to, unit_lattice().snap(edit.to));
@@ -134,7 +135,7 @@ struct Stage {
   PatchBudget budget;
 };
 
-/// Largest alpha of the triangles with a corner within `radius` of `center`, by brute force.
+/// Returns the largest alpha of all triangles with a corner within `radius` of `center`, by brute force.
 inline double worst_alpha(const Stage& stage, const std::vector<SiteEdit>& edits, Vec2 center, double radius) {
   PatchMesh mesh(unit_lattice(), {});
   mesh.start(center, 4);
@@ -167,7 +168,7 @@ inline double worst_alpha(const Stage& stage, const std::vector<SiteEdit>& edits
   return worst;
 }
 
-/// How many edits of a kind there are, on the boundary or inside.
+/// Returns the number of edits of one kind, on the boundary or inside.
 inline std::ptrdiff_t count(const std::vector<SiteEdit>& edits, Kind kind, bool on_boundary = false) {
   return std::count_if(edits.begin(), edits.end(),
                        [&](const SiteEdit& edit) { return edit.kind == kind && (edit.boundary >= 0) == on_boundary; });

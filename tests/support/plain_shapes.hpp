@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shapes in the unit square and silent runs of the mesher on them, for the tests of whole meshes.
+// Makes shapes in the unit square and meshes of them without output, for tests of whole meshes.
 #pragma once
 
 #include "trime/meshing/mesher.hpp"
@@ -18,7 +18,7 @@ inline const geometry::Frame& unit_frame() {
 inline shape::RegionShape whole_container() {
   return {{}, "domain", unit_frame()};
 }
-/// Side 0.8, in the middle.
+/// Returns a square with side 0.8 in the middle of the unit square.
 inline shape::RegionShape square() {
   return {{shape::Part::rectangle("s", {{0.1, 0.1}, {0.9, 0.9}}, unit_frame())}, "s", unit_frame()};
 }
@@ -26,11 +26,11 @@ inline shape::RegionShape triangle(geometry::Vec2 a = {0.1, 0.1}, geometry::Vec2
                                    geometry::Vec2 c = {0.4, 0.8}) {
   return {{shape::Part::triangle("t", {a, b, c}, unit_frame())}, "t", unit_frame()};
 }
-/// Radius 0.4, in the middle.
+/// Returns a disc with radius 0.4 in the middle of the unit square.
 inline shape::RegionShape disc() {
   return {{shape::Part::circle("d", {0.5, 0.5}, 0.4, unit_frame())}, "d", unit_frame()};
 }
-/// The disc without another.
+/// Returns the disc without a smaller disc.
 inline shape::RegionShape disc_with_hole(geometry::Vec2 center = {0.55, 0.5}, double radius = 0.15) {
   return {
       {shape::Part::circle("d", {0.5, 0.5}, 0.4, unit_frame()), shape::Part::circle("h", center, radius, unit_frame())},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Point sets of the tests, easy and ugly, all on the lattice of the unit square.
+// Sets of points for the tests, regular and difficult ones, all on the coordinate lattice of the unit square.
 #pragma once
 
 #include "core/random.hpp"
@@ -12,7 +12,7 @@
 
 namespace trime::testing {
 
-/// Threads of the loops during the life of this object.
+/// Sets the number of threads of loops as long as this object exists.
 class OnThreads {
 public:
   explicit OnThreads(int threads) : before_(thread_count()) { set_thread_count(threads); }
@@ -24,7 +24,7 @@ private:
   int before_;
 };
 
-/// Uniform in the unit square, on its lattice.
+/// Returns a random point, uniform in the unit square, rounded to its lattice.
 inline geometry::Vec2 random_vec2(std::uint64_t seed, std::uint64_t key) {
   return unit_lattice().snap(geometry::Vec2{random_unit(seed, RandomPurpose::test, key, 0), //
                                             random_unit(seed, RandomPurpose::test, key, 1)});
@@ -37,7 +37,7 @@ inline mesh::SiteList random_sites(std::size_t n, std::uint64_t seed) {
   return sites;
 }
 
-/// n x n sites in a square lattice; every unit square is a tie.
+/// Returns n x n sites on a square lattice. The four corners of each cell lie on a circle.
 inline mesh::SiteList square_lattice(int n, double spacing, geometry::Vec2 origin = {0.125, 0.125}) {
   mesh::SiteList sites;
   const double step = unit_lattice().snap(spacing);
@@ -48,7 +48,7 @@ inline mesh::SiteList square_lattice(int n, double spacing, geometry::Vec2 origi
   return sites;
 }
 
-/// n rows of n sites in a hexagonal lattice.
+/// Returns n rows of n sites on a hexagonal lattice.
 inline mesh::SiteList hexagonal_lattice(int n, double spacing, geometry::Vec2 origin = {0.125, 0.125}) {
   mesh::SiteList sites;
   for (int j = 0; j < n; ++j)
@@ -58,7 +58,7 @@ inline mesh::SiteList hexagonal_lattice(int n, double spacing, geometry::Vec2 or
   return sites;
 }
 
-/// n sites about evenly on a circle and one in its centre: a star of degree n.
+/// Returns n sites spread about evenly on a circle, and one in its centre, which has n neighbours.
 inline mesh::SiteList wheel(int n, geometry::Vec2 center, double radius) {
   mesh::SiteList sites{{unit_lattice().snap(center)}};
   for (int k = 0; k < n; ++k) {
@@ -68,10 +68,11 @@ inline mesh::SiteList wheel(int n, geometry::Vec2 center, double radius) {
   return sites;
 }
 
-/// Exactly cocircular sites: integer points of the circle of radius 65 (36 of them), and of one half as large.
+/// Returns sites that lie exactly on two circles: the 36 integer points of the circle of radius 65, and the same at
+/// half the size.
 inline mesh::SiteList cocircular_rings() {
   mesh::SiteList sites;
-  const double unit = 2 * unit_lattice().snap(0.0025); // half of it is on the lattice too
+  const double unit = 2 * unit_lattice().snap(0.0025); // half of the unit is on the lattice too
   for (const double scale : {unit, 0.5 * unit})
     for (int x = -65; x <= 65; ++x)
       for (int y = -65; y <= 65; ++y)
@@ -80,7 +81,7 @@ inline mesh::SiteList cocircular_rings() {
   return sites;
 }
 
-/// Two tight clusters and a few sites far away.
+/// Returns two dense clusters of sites, and a few sites far away.
 inline mesh::SiteList clusters(std::size_t n, std::uint64_t seed) {
   mesh::SiteList sites;
   for (std::size_t k = 0; k < n; ++k) {
@@ -94,7 +95,7 @@ inline mesh::SiteList clusters(std::size_t n, std::uint64_t seed) {
   return sites;
 }
 
-/// Random sites, most of them with a twin 1e-12 away (about nine lattice steps).
+/// Returns random sites; most of them have another site at a distance of 1e-12 (about nine lattice steps).
 inline mesh::SiteList near_duplicates(std::size_t n, std::uint64_t seed) {
   mesh::SiteList sites = random_sites(n, seed);
   for (std::size_t k = 0; k < n; ++k)
@@ -104,7 +105,8 @@ inline mesh::SiteList near_duplicates(std::size_t n, std::uint64_t seed) {
   return sites;
 }
 
-/// Random sites whose density falls from the origin with the square of the distance: ratio 1000 over the unit square.
+/// Returns random sites whose density decreases with the square of the distance from the origin, by a factor of 1000
+/// over the unit square.
 inline mesh::SiteList graded_sites(std::size_t n, std::uint64_t seed) {
   mesh::SiteList sites;
   for (std::uint64_t k = 0; sites.size() < n; ++k) {
@@ -118,7 +120,7 @@ inline mesh::SiteList graded_sites(std::size_t n, std::uint64_t seed) {
   return sites;
 }
 
-/// All on one line: no triangles at all.
+/// Returns n sites on one line, which have no triangles.
 inline mesh::SiteList collinear(int n) {
   mesh::SiteList sites;
   const double step = unit_lattice().snap(0.01);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What must hold for the stars of any point set, by exact predicates and brute force.
+// Checks the stars of any set of points, by exact predicates and brute force.
 #pragma once
 
 #include "delaunay/star_builder.hpp"
@@ -25,14 +25,14 @@ struct LexicographicOrder {
 };
 using TriangleSet = std::set<Triangle, LexicographicOrder>;
 
-/// The triangle from its smallest vertex on; the turn stays.
+/// Returns the triangle with its smallest vertex first, in the same orientation.
 inline Triangle canonical(geometry::Vec2 a, geometry::Vec2 b, geometry::Vec2 c) {
   Triangle t{a, b, c};
   std::rotate(t.begin(), std::min_element(t.begin(), t.end(), geometry::lexicographically_less), t.end());
   return t;
 }
 
-/// Calls visit(a, b) for each triangle of the star of site i.
+/// Calls visit(a, b) for each triangle (i, a, b) of the star of site i.
 template <class Visit>
 void for_each_triangle(const delaunay::StarTable& stars, LocalIndex i, const Visit& visit) {
   const std::span<const LocalIndex> ring = stars.ring(i);
@@ -43,7 +43,7 @@ void for_each_triangle(const delaunay::StarTable& stars, LocalIndex i, const Vis
   }
 }
 
-/// Triangles of the stars of the owned sites.
+/// Returns all triangles in the stars of the owned sites.
 inline TriangleSet triangles_of(const mesh::BinnedPoints& points, const delaunay::StarTable& stars) {
   TriangleSet all;
   for (LocalIndex i = 0; i < points.owned(); ++i)
@@ -53,8 +53,8 @@ inline TriangleSet triangles_of(const mesh::BinnedPoints& points, const delaunay
   return all;
 }
 
-/// Checks that every ring is counter-clockwise, starts at its smallest neighbour, and has no repeated neighbour or
-/// double gap.
+/// Checks that every ring of neighbours is counter-clockwise, starts at the smallest neighbour, and has neither
+/// repeated neighbours nor two gaps in a row.
 inline void expect_well_formed(const mesh::BinnedPoints& points, const delaunay::StarTable& stars) {
   for (LocalIndex i = 0; i < points.owned(); ++i) {
     const std::span<const LocalIndex> ring = stars.ring(i);
@@ -89,7 +89,7 @@ inline void expect_well_formed(const mesh::BinnedPoints& points, const delaunay:
   }
 }
 
-/// Each triangle is in its three stars, of those that are owned.
+/// Checks that each triangle is listed by the stars of all its corners that are owned.
 inline void expect_consistent(const mesh::BinnedPoints& points, const delaunay::StarTable& stars) {
   const auto has = [&](LocalIndex i, LocalIndex a, LocalIndex b) {
     bool found = false;
@@ -103,7 +103,7 @@ inline void expect_consistent(const mesh::BinnedPoints& points, const delaunay::
     });
 }
 
-/// No site inside the circle of any triangle, by the exact predicate. O(n^2).
+/// Checks by the exact predicate that no site lies inside the circumcircle of any triangle. Cost: O(n^2).
 inline void expect_empty_discs(const mesh::BinnedPoints& points, const delaunay::StarTable& stars,
                                const geometry::Lattice& lattice) {
   for (LocalIndex i = 0; i < points.owned(); ++i)
@@ -120,7 +120,8 @@ inline void expect_empty_discs(const mesh::BinnedPoints& points, const delaunay:
     });
 }
 
-/// Ring by ring, as positions; both hold the same sites in the same order.
+/// Checks that two tables have the same rings, compared by positions.
+/// @pre both hold the same sites in the same order
 inline void expect_same_rings(const delaunay::StarTable& a, const delaunay::StarTable& b) {
   ASSERT_EQ(a.size(), b.size());
   for (LocalIndex i = 0; i < a.size(); ++i) {

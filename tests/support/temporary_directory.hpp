@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A directory of its own for a test, removed with all that is in it. With a communicator: one for all ranks.
+// A temporary directory for a test, which is removed together with its files. With a communicator, all ranks share one
+// directory.
 #pragma once
 
 #include "trime/comm/communicator.hpp"
@@ -13,7 +14,7 @@ namespace trime::test {
 class TemporaryDirectory {
 public:
   TemporaryDirectory() : path_(make()) {}
-  /// Collective, the destructor too.
+  /// Makes one directory for all ranks. The constructor and the destructor are collective.
   explicit TemporaryDirectory(const comm::Communicator& comm)
       : comm_(&comm), path_(comm.broadcast(comm.is_root() ? make() : std::string())) {}
   ~TemporaryDirectory() {

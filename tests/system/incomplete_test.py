@@ -16,7 +16,7 @@ class Incomplete(unittest.TestCase):
             done = run(ROOT / "configs" / "spade.ini", "meshing.max_sweeps=2", "meshing.points=1000",
                        f"output.directory={directory}")
             self.assertEqual(done.returncode, 5, done.stdout + done.stderr)
-            self.assertRegex(done.stdout + done.stderr, r"NOT complete \(the sweep cap.*marked so in the file")
+            self.assertRegex(done.stdout + done.stderr, r"NOT complete \(the sweep cap.*marked as incomplete")
             with h5py.File(directory / "spade.h5", "r") as file:
                 self.assertEqual(file["trime_mpi"].attrs["complete"], 0)
                 self.assertEqual(file["trime_mpi"].attrs["stop_reason"], b"sweep cap")

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Wall-clock times of the sections of a run, with counters of their work: messages, stars, ghosts and so on. Sections
-// do not nest, so that the table adds up to the whole. Counters are plain integers that modules add to once per call
-// or tile, never inside their loops. The program reports times and counters; no decision depends on them.
+// Measures the wall-clock time of each section of a run, with counters of the work done in it: messages, stars, ghosts
+// and so on. Sections do not nest, so their times add up to the time of the run. Counters are plain integers; modules
+// add to them once per call or tile, never inside their loops. The program reports times and counters; no decision
+// depends on them.
 #pragma once
 
 #include <array>
@@ -13,53 +14,55 @@
 
 namespace trime {
 
-/// The counters. A sum adds up over time. A peak is the largest value that was noted, such as a number of sites.
+/// The counters. A sum adds up the values of all calls. A peak keeps the largest value, such as the largest number of
+/// sites.
 enum class Counter : std::uint8_t {
-  messages,    ///< sum: messages to other ranks; a message of more than 1 GiB counts once for each GiB
-  bytes,       ///< sum: bytes of these messages
-  collectives, ///< sum: calls in which all ranks take part
-  wait_ns, ///< sum: nanoseconds in MPI calls that end when another rank arrives; calls inside of HDF5 are not counted
-  neighbours,         ///< peak: number of other ranks that got messages in one call of a section
-  sites_started,      ///< sum: sites that a stage began with
-  points,             ///< peak: owned sites
-  densest_tile,       ///< peak: sites in the fullest tile of the rank
-  ghosts,             ///< peak: sites of other ranks that the rank knows
-  sites_migrated,     ///< sum: sites that came from another rank
-  passes,             ///< sum: searches for the next places of all sites; a sweep takes one, or two if the rule changes
-  sites_swept,        ///< sum: sites that were awake, counted in each pass: the rule computed where they go
-  sites_slept,        ///< sum: all other sites, counted in each pass; they stayed
-  sites_moved,        ///< sum: sites that a sweep has moved by more than 0.005 h
-  stars_by_emptiness, ///< sum: stars computed from the sites around
-  stars_rebuilt,      ///< sum: those of them that changed
-  fetch_rounds,       ///< sum: how often the halo grew because a rank missed bins
-  cleanup_rounds,     ///< sum: rounds of the clean-up
-  patches,            ///< sum: patches that the clean-up has tried
+  messages,       ///< sum: messages to other ranks; a message of more than 1 GiB counts once for each begun GiB
+  bytes,          ///< sum: bytes in messages to other ranks
+  collectives,    ///< sum: calls in which all ranks take part
+  wait_ns,        ///< sum: nanoseconds in MPI calls that wait for other ranks; calls inside of HDF5 are not counted
+  neighbours,     ///< peak: number of other ranks that got messages in one section
+  sites_started,  ///< sum: number of sites at the beginning of each stage
+  points,         ///< peak: number of owned sites
+  densest_tile,   ///< peak: sites in the fullest tile of the rank
+  ghosts,         ///< peak: sites of other ranks that the rank knows
+  sites_migrated, ///< sum: sites that came from another rank
+  passes,      ///< sum: passes that compute the next places of all sites; a sweep makes one, or two if the update rule
+               ///< changes
+  sites_swept, ///< sum: sites that were awake in a pass, so that the update rule computed their next place
+  sites_slept, ///< sum: sites that were asleep in a pass, so that they stayed in place
+  sites_moved, ///< sum: sites that moved by more than 0.005 h in a sweep
+  stars_by_emptiness, ///< sum: stars that were computed from the surrounding sites by the empty-circumcircle test
+  stars_rebuilt,      ///< sum: stars among stars_by_emptiness that changed
+  fetch_rounds,       ///< sum: how often a rank fetched more ghosts because it needed sites of unknown bins
+  cleanup_rounds,     ///< sum: rounds of the clean-up of bad triangles
+  patches,            ///< sum: patches on which the clean-up tried changes
   sites_extracted,    ///< sum: points of the mesh
-  grid_bytes,         ///< peak: bytes of tables as long as the grid of tiles
-  boundary_bytes,     ///< peak: bytes of tables as long as the boundary
-  size_bytes,         ///< peak: bytes of tables of the whole size field
-  rank_bytes,         ///< peak: bytes of a table as long as the number of ranks
+  grid_bytes,         ///< peak: bytes of tables that are as long as the grid of tiles
+  boundary_bytes,     ///< peak: bytes of tables that are as long as the boundary
+  size_bytes,         ///< peak: bytes of tables that describe the whole size field
+  rank_bytes,         ///< peak: bytes of the largest table that is as long as the number of ranks
 };
 inline constexpr std::size_t counter_count = static_cast<std::size_t>(Counter::rank_bytes) + 1;
 
-/// The name of a counter in reports and files.
+/// The name and the unit of a counter in reports and files.
 struct CounterName {
   const char* name; ///< such as "sites_swept"
-  const char* unit; ///< what it counts, such as "sites"
+  const char* unit; ///< unit of the counter, such as "sites"
 };
 CounterName name_of(Counter counter);
 bool is_peak(Counter counter);
-/// Returns whether `comm` counts this counter.
+/// Returns whether the module `comm` counts this counter.
 constexpr bool is_traffic(Counter counter) {
   return counter <= Counter::neighbours;
 }
 
-/// A value of each counter, 0 at first.
+/// One value for each counter; all are 0 at first.
 class CounterValues {
 public:
   std::int64_t operator[](Counter counter) const { return values_[static_cast<std::size_t>(counter)]; }
   void set(Counter counter, std::int64_t value) { values_[static_cast<std::size_t>(counter)] = value; }
-  /// Combines two periods of time: adds sums, and takes the larger of two peaks.
+  /// Combines two periods of time: adds the sums, and keeps the larger of the two values of each peak.
   CounterValues& operator+=(const CounterValues& other);
 
 private:
@@ -69,17 +72,18 @@ private:
 /// The counters of a rank. Only one thread may use them at a time.
 class Counters {
 public:
-  /// Adds to a sum.
+  /// Adds a value to a counter that is a sum.
   void add(Counter counter, std::int64_t value = 1) { values_.set(counter, values_[counter] + value); }
-  /// Notes a value for a peak: the largest one counts.
+  /// Notes a value for a counter that is a peak, which keeps its largest value.
   void note(Counter counter, std::int64_t value) {
     if (value > values_[counter])
       values_.set(counter, value);
   }
-  /// Counts a message to another rank. O(1) if ranks come in ascending order, else O(neighbours).
+  /// Counts a message to another rank. Cost: O(1) if messages are counted in ascending order of ranks, otherwise
+  /// O(neighbours).
   void add_message(int to, std::int64_t bytes);
 
-  /// Returns all that was counted since the last call, and begins again with 0.
+  /// Returns all counters since the last call, and sets them to 0.
   CounterValues take();
 
 private:
@@ -90,11 +94,11 @@ private:
 /// Returns the seconds of a monotonic clock.
 double wall_seconds();
 
-/// @brief Sets another clock, such as the clock of a simulator; null: the steady clock again. Other threads must not
-/// read the clock meanwhile.
+/// @brief Replaces the clock of wall_seconds(), for example by the clock of a simulator; null: the steady clock again.
+/// No other thread may read the clock meanwhile.
 void set_wall_clock(double (*seconds)());
 
-/// Accumulated seconds, calls and counters per named section, in order of first use.
+/// Seconds, calls and counters of each named section of a run, in the order of first use.
 class TimerTable {
 public:
   /// A named part of a run.
@@ -105,7 +109,7 @@ public:
     CounterValues counts{};
   };
 
-  /// Adds the time from construction to destruction to one section, and what was counted.
+  /// Adds the time between construction and destruction, and the counters of that time, to one section.
   class Scope {
   public:
     Scope(TimerTable& table, const std::string& name) : table_(table), name_(name), start_(wall_seconds()) {
@@ -123,17 +127,19 @@ public:
     double start_;
   };
 
-  /// @param counters counters of this rank, which the table takes over at the end of each section; null: nothing is
-  /// counted. They must outlive the table
+  /// @param counters counters of this rank, which are moved to a section when it ends; null: nothing is counted. The
+  /// counters must outlive the table
   explicit TimerTable(Counters* counters = nullptr) : counters_(counters), start_(wall_seconds()) {}
   [[nodiscard]] Scope scope(const std::string& name) { return Scope(*this, name); }
-  /// Sets the function that is called with the name of each section that begins; at most one.
+  /// Sets the function that is called at the beginning of each section, with its name. There is at most one such
+  /// function.
   void on_section(std::function<void(const std::string&)> begins) { begins_ = std::move(begins); }
   void add(const std::string& name, double seconds, const CounterValues& counts = {});
   const std::vector<Section>& sections() const { return sections_; }
   /// Returns the seconds since construction.
   double total() const { return wall_seconds() - start_; }
-  /// Returns what was counted between the sections so far. @pre no section is open
+  /// Returns the counters of all time outside of the sections so far.
+  /// @pre no section is open
   const CounterValues& outside() { return outside_ += take(); }
 
 private:

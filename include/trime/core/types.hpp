@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Integer types by role, and the vector for large arrays. `int` is for ranks, threads and MPI counts.
+// Integer types by role, and a vector for large arrays whose elements are not initialised. Ranks, threads and MPI
+// counts are `int`.
 #pragma once
 
 #include <cstddef>
@@ -11,15 +12,15 @@
 
 namespace trime {
 
-using LocalIndex = std::int32_t; ///< index into an array of this rank
-using GlobalId = std::int64_t;   ///< index into the whole mesh, all ranks together
+using LocalIndex = std::int32_t; ///< index into an array on this rank
+using GlobalId = std::int64_t;   ///< index into the whole mesh, over all ranks
 
 /// Converts a local index to the index type of standard containers. @pre i >= 0
 constexpr std::size_t at(LocalIndex i) {
   return static_cast<std::size_t>(i);
 }
 
-/// Like std::allocator, except that elements made without a value are not initialised.
+/// An allocator that leaves new elements uninitialised unless a value is given, which saves a pass over large arrays.
 template <class T>
 struct UnsetAllocator : std::allocator<T> {
   static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
@@ -40,7 +41,8 @@ struct UnsetAllocator : std::allocator<T> {
   }
 };
 
-/// Elements that resize or a constructor makes without a value must be written before they are read.
+/// A vector whose new elements are uninitialised: elements that resize or a constructor makes without a value must be
+/// written before they are read.
 template <class T>
 using UnsetVector = std::vector<T, UnsetAllocator<T>>;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table of all output formats, and the writers of those of other programs, which keep the names of boundaries and
-// regions.
+// The table of all output formats, and the functions that write meshes for other programs with the names of boundaries
+// and regions.
 #pragma once
 
 #include "trime/comm/communicator.hpp"
@@ -18,32 +18,34 @@ namespace trime::formats {
 class ExchangeMesh;
 struct FilePlan;
 
-/// The formats. vtkhdf and xdmf are views of NAME.h5, text has the files of TriMe++, gmsh is MSH 4.1, gmsh2 MSH 2.2,
-/// sms is .2dm.
+/// The output formats. vtkhdf and xdmf describe the arrays of NAME.h5 for other readers, text has the files of TriMe++,
+/// gmsh is MSH 4.1, gmsh2 MSH 2.2, sms is .2dm.
 enum class Format { vtkhdf, xdmf, text, gmsh, gmsh2, medit, freefem, triangle, vtu, sms, adcirc, geojson };
 
-/// One row of the table of formats. Config, help, conversion and the files of a run read nothing else about a format.
+/// One row of the table of formats. Config, --help, `trime_mpi convert` and the output of a run take all facts about a
+/// format from this row.
 struct FormatInfo {
   Format format;
-  const char* word;            ///< word in a config
-  const char* ending;          ///< ending of the (first) file, with the dot; text: none, but a directory
-  bool holds_periodic = false; ///< can hold the mesh of a periodic container
-  bool has_long_ids = false;   ///< counts with 64 bits
-  /// Plans the files of a mesh whose first is the path; null for those that a run writes along with NAME.h5.
-  /// Collective.
+  const char* word;            ///< word for the format in a config
+  const char* ending;          ///< ending of the (first) file, with the dot; empty for text, which is a directory
+  bool holds_periodic = false; ///< whether it can hold the mesh of a periodic container
+  bool has_long_ids = false;   ///< whether its ids have 64 bits
+  /// Plans the files of a mesh; `path` is that of the first file. Null for formats that a run writes along with
+  /// NAME.h5. Collective.
   std::vector<FilePlan> (*plan)(const ExchangeMesh& mesh, const std::string& path) = nullptr;
 };
 std::span<const FormatInfo> all_formats();
 const FormatInfo& info_of(Format format);
 std::optional<Format> format_of_word(const std::string& word);
-/// Returns the format of another program with the ending of the path.
+/// Returns the format whose ending the path has. Formats that belong to NAME.h5 are left out.
 std::optional<Format> format_of_path(const std::string& path);
-/// Returns the words of all formats with a property, such as "vtkhdf, xdmf and text"; `last` is the word before the
-/// last one.
+/// Returns the words of all formats that have a property, such as "vtkhdf, xdmf and text"; `last` is put before the
+/// last word.
 std::string words_of(bool FormatInfo::*property, const char* last);
 
-/// The meaning of the numbers of a mesh. In all formats a boundary edge that follows part k of the shape has the label
-/// k + 1, since 0 means inside. A point has the lowest label of its edges. Regions keep their numbers, from 1.
+/// The names of the numbers in a mesh. In all formats a boundary edge that follows part k of the shape has the label k
+/// + 1, because 0 means inside. A point has the lowest label of its edges. Regions keep their numbers, which begin with
+/// 1.
 struct Names {
   std::vector<std::string> parts;   ///< names, indexed by DistributedMesh::facet_parts
   std::vector<std::string> regions; ///< names of the regions 1, 2, ...
@@ -53,23 +55,23 @@ struct Names {
   std::string crs{};
 };
 
-/// Returns the paths of all files of a format whose first file is `path`: Triangle has three.
+/// Returns the paths of all files of a format if the first file is `path`. For example, Triangle has three files.
 std::vector<std::string> paths_of(Format format, const std::string& path);
 
-/// @brief Writes the mesh. Each file appears complete or not at all; files of the same name are replaced. The ranks
-/// make the text in slices, so no rank holds much of it; for sms and adcirc, however, rank 0 gathers the boundary
-/// edges.
-/// @param files notes the temporary files, for a signal handler; may be null
-/// @throws ConfigError for what the format cannot hold (periodic containers, too many points), FileError; both on all
-/// ranks together
-/// @return the paths
+/// @brief Writes the mesh in a format of another program. Each file appears complete or not at all; files of the same
+/// name are replaced. The ranks make the text in slices, so no rank holds the whole of it; for sms and adcirc, however,
+/// rank 0 gathers all boundary edges.
+/// @param files list of the temporary files, which a signal handler removes; may be null
+/// @throws ConfigError for a mesh that the format cannot hold (periodic container, too many points); FileError if a
+/// file cannot be written; both on all ranks together
+/// @return the paths of the files
 /// @note Collective.
 std::vector<std::string> write(Format format, const std::string& path, const mesh::DistributedMesh& mesh,
                                const Names& names, io::RunFiles* files, const comm::Communicator& comm);
 
-/// @brief Creates the directory if it is missing, and checks that the mesh file and its views can be written. Call it
-/// before long work whose result would be lost.
-/// @return warnings, for example about files that a killed run has left; on rank 0 only
+/// @brief Creates the output directory if it is missing, and checks that the mesh file and its views can be written.
+/// Call this before long computations whose result would otherwise be lost.
+/// @return warnings for the user, for example about files that a killed run has left; on rank 0 only
 /// @throws FileError on all ranks if the directory cannot be made or written, or a file exists and may not be
 /// overwritten
 /// @note Collective.

@@ -1,7 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// The power-of-two lattice of the container on which every site lies, the periods of the container, and the Frame that
-// holds both. Parts of a shape are made in a Frame. Differences of sites are exact doubles: integers below 2^45 in
-// lattice steps. So an exact in-circle test has a bounded size.
+// SPDX-License-Identifier: BSD-3-Clause The lattice of the container, with a power of two as its step, on which every
+// site lies; the periods of the container; and the Frame that holds both. Parts of a shape are made in a Frame. The
+// difference of two sites is an exact double: an integer below 2^45 in lattice steps. Because of this bound, the exact
+// in-circle test needs a bounded number of bits.
 #pragma once
 
 #include "trime/core/sum.hpp"
@@ -16,7 +16,7 @@ namespace trime::geometry {
 class Lattice {
 public:
   /// The step is the smallest power of two that is at least 2^-44 of the longer side of `container` and at least 2^-51
-  /// of its largest coordinate. Then every multiple of it inside the container is a double.
+  /// of its largest coordinate. Then every multiple of the step inside the container is a double.
   explicit Lattice(const Box& container) {
     const double side = std::fmax(container.width(), container.height());
     const double extent = std::fmax(std::fmax(std::fabs(container.min.x), std::fabs(container.max.x)),
@@ -42,14 +42,15 @@ private:
   double step_, inverse_step_;
 };
 
-/// @brief The images of a point are the point shifted by multiples of (x, 0) and (0, y); 0 means "not periodic". The
-/// canonical image of a point lies in [min.x, min.x + x) x [min.y, min.y + y) along the periodic axes. `min` and the
-/// periods are lattice multiples, so every shift of a lattice point is exact.
+/// @brief The periods of a container. The images of a point are the point shifted by multiples of (x, 0) and (0, y); a
+/// period of 0 means "not periodic". The canonical image of a point lies in [min.x, min.x + x) x [min.y, min.y + y)
+/// along the periodic axes. `min` and the periods are lattice multiples, so every shift of a lattice point is exact.
 struct Periods {
   double x = 0, y = 0;
   Vec2 min;
 
-  /// Returns the periods of a container: its sides rounded to the lattice, from its first lattice point on.
+  /// Returns the periods of a container: its sides rounded to the lattice. `min` is the first lattice point in the
+  /// container.
   static Periods of(const Box& container, const Lattice& lattice, bool periodic_x, bool periodic_y) {
     const double inverse = lattice.inverse_step();
     return {periodic_x ? lattice.snap(container.width()) : 0, periodic_y ? lattice.snap(container.height()) : 0,
@@ -66,8 +67,8 @@ struct Periods {
   }
   /// Returns whether a and b are images of the same point.
   bool same_point(Vec2 a, Vec2 b) const { return wrap(a) == wrap(b); }
-  /// Compares the canonical images lexicographically. This order breaks all ties, and is the same for all images of a
-  /// point.
+  /// Compares the canonical images lexicographically. The program breaks all ties by this order, which is the same for
+  /// all periodic images of a point.
   bool less(Vec2 a, Vec2 b) const { return lexicographically_less(wrap(a), wrap(b)); }
 
 private:
@@ -79,16 +80,16 @@ private:
   }
 };
 
-/// The container of a shape that fits into it, where the user gives none.
+/// The default container of a shape that fits into it.
 inline constexpr Box unit_square{{0, 0}, {1, 1}};
 
-/// @brief The container of a shape where the user gives none: the unit square if it contains `box` or `box` has no
-/// area, else `box` with a margin of 5 % of its longer side all around.
-/// @param box around the shape: Region::box of the boxes of its parts. A part without a box counts as the
-/// unit square: the `domain`, a function, a contour that is normalised.
+/// @brief Returns the default container of a shape: the unit square if it contains `box` or `box` has no area,
+/// otherwise `box` with a margin of 5 % of its longer side on all sides.
+/// @param box the box around the shape: Region::box of the boxes of its parts. A part without a box (the `domain`, a
+/// function, a normalised contour) counts as the unit square.
 Box container_around(const Box& box);
 
-/// The container with its lattice and periods. Immutable; cheap to copy.
+/// The container with its coordinate lattice and its periods. Immutable; cheap to copy.
 class Frame {
 public:
   /// @throws GeometryError if the width or the height of `container` is not positive and finite
@@ -97,17 +98,18 @@ public:
   const Box& container() const { return container_; }
   const Lattice& lattice() const { return lattice_; }
   double step() const { return lattice_.step(); }
-  /// The periods; none by default.
+  /// The periods; zero unless the container is periodic.
   const Periods& periods() const { return periods_; }
 
-  /// The largest lattice rectangle inside the container; exactly one period long on periodic axes. It is the shape
-  /// `domain`.
+  /// The largest lattice rectangle inside the container; its sides along periodic axes are exactly one period long. The
+  /// shape `domain` is this rectangle.
   const Box& inner() const { return inner_; }
-  /// The container and twice its size around it. The exact predicates are valid here, so parts may lie here.
+  /// The container extended by twice its size on all sides. The exact predicates are valid in this box, so parts of a
+  /// shape may reach into it.
   const Box& reach() const { return reach_; }
 
   /// Returns the nearest lattice point. If rounding moves it out of the container, returns a point on the edge of
-  /// inner().
+  /// inner() instead.
   Vec2 snap(Vec2 p) const { return {snap(p.x, inner_.min.x, inner_.max.x), snap(p.y, inner_.min.y, inner_.max.y)}; }
 
 private:

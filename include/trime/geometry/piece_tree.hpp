@@ -16,21 +16,21 @@ namespace trime::geometry {
 class PieceTree {
 public:
   PieceTree() = default;
-  /// Takes O(M) time, and about 50 bytes per segment and more per arc.
+  /// Builds the tree in O(M) time for M pieces. Memory: about 50 bytes per segment and more per arc.
   explicit PieceTree(const Boundary& boundary);
-  /// @brief Returns the distance from p to the nearest piece or image of one, infinity without pieces. O(log M) for
-  /// curves, thread-safe.
+  /// @brief Returns the distance from p to the nearest piece or periodic image of a piece; infinity if there are no
+  /// pieces. Cost: O(log M) for curves. Thread-safe.
   double distance(Vec2 p) const { return nearest(p).distance; }
 
   /// The nearest piece and its distance.
   struct Nearest {
     double distance;
-    std::size_t piece; ///< counted through all loops in their order
+    std::size_t piece; ///< number of the piece, counted through all loops in their order
   };
-  /// Returns the nearest piece, one of those that are equally near. O(log M) for curves, thread-safe.
+  /// Returns the nearest piece; if several are equally near, one of them. Cost: O(log M) for curves. Thread-safe.
   Nearest nearest(Vec2 p) const;
-  /// Returns the pieces within `distance` of p or of an image of p, ascending, counted through all loops in their
-  /// order.
+  /// Returns the pieces within `distance` of p or of a periodic image of p, ascending. Pieces are counted through all
+  /// loops in their order.
   std::vector<std::size_t> within(Vec2 p, double distance) const;
 
 private:
@@ -48,7 +48,8 @@ private:
   std::vector<Ends> ends_;
   std::vector<LocalIndex> arc_of_; // by piece: index into arcs_, or -1 for a segment; empty without arcs
   std::vector<Piece> arcs_;
-  std::vector<Box> boxes_; // heap order: the root is 1, the children of k are 2k and 2k+1; the runs are the leaves
+  std::vector<Box>
+      boxes_; // in the order of a heap: the root is 1, the children of k are 2k and 2k+1, the leaves are the runs
 };
 
 } // namespace trime::geometry

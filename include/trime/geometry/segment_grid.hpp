@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// A search structure over the segments of closed polygons: nearest segment and inside test, both with exact decisions.
+// SPDX-License-Identifier: BSD-3-Clause A search structure over the segments of closed polygons. The structure finds
+// the nearest segment and decides whether a point lies inside, both exactly.
 #pragma once
 
 #include "trime/core/types.hpp"
@@ -13,13 +13,14 @@
 
 namespace trime::geometry {
 
-/// @brief Bins over M segments: a tree of square cells. A cell is split into 4 x 4 while it meets more than a few
-/// segments. A smooth curve of many short segments has 1 to 4 of them in a bin. O(M log M) to build, O(M) memory,
-/// immutable and thread-safe after.
+/// @brief A tree of square cells over M segments. A cell that meets more than a few segments is split into 4 x 4 cells;
+/// the others are the bins. If a smooth curve consists of many short segments, each bin has 1 to 4 of them. Takes O(M
+/// log M) time to build and O(M) memory; afterwards it is immutable and thread-safe.
 ///
-/// The segments together must form closed polygons (every end is shared by an even number of segments) for `inside`;
-/// the distance queries do not need that. All coordinates, of segments and of queries to `inside`, must be points of
-/// one lattice, so that orient2d is exact. Cell corners have few bits and are exact with any such lattice.
+/// For the query `inside`, the segments together must form closed polygons (each end is shared by an even number of
+/// segments); the distance queries do not need that. The coordinates of segments and of points passed to `inside` must
+/// lie on one coordinate lattice, so that orient2d is exact. Corners of cells have few bits and are exact with any such
+/// lattice.
 class SegmentGrid {
 public:
   SegmentGrid() = default;
@@ -30,30 +31,30 @@ public:
     LocalIndex segment;
     double squared_distance;
   };
-  /// Returns the nearest segment within `reach` of p (the lowest index on ties), or nothing. Visits only the bins
-  /// within reach, or fewer.
+  /// Returns the nearest segment within the distance `reach` of p (on ties the one with the lowest index), or nothing.
+  /// The search visits only bins within this distance.
   std::optional<Nearest> nearest(Vec2 p, double reach) const;
   /// Returns the nearest segment at any distance. @pre at least one segment
   Nearest nearest(Vec2 p) const;
-  /// Returns whether p lies inside, by the even-odd rule. Exact, with symbolic perturbation: a point on the boundary
-  /// counts as the point moved by (epsilon^2, epsilon). O(depth + segments in one bin).
+  /// Returns whether p lies inside, by the even-odd rule. The answer is exact; by symbolic perturbation, a point on the
+  /// boundary counts as the point moved by (epsilon^2, epsilon). Cost: O(depth + segments in one bin).
   bool inside(Vec2 p) const;
-  /// Returns how many segments inside(p) examines: few, except if long slanted segments lie side by side. O(depth).
+  /// Returns how many segments inside(p) examines: few, unless long slanted segments lie side by side. Cost: O(depth).
   LocalIndex looked_at_for(Vec2 p) const;
-  /// Calls visit(index) for every segment that may meet `box`, in ascending order in each bin; a segment in several
-  /// bins may be visited several times. Stops when visit returns false.
+  /// Calls visit(index) for every segment that may meet `box`, in ascending order in each bin; a segment that lies in
+  /// several bins may be visited several times. Stops when visit returns false.
   template <class Visit>
   void for_each_near(const Box& box, const Visit& visit) const;
-  /// Does the same only for bins that may lie within `margin` of `segment`: a long slanted one meets few of the bins of
-  /// its box.
+  /// Does the same only for bins that may lie within `margin` of `segment`. A long slanted segment meets few of the
+  /// bins in its bounding box.
   template <class Visit>
   void for_each_near(const Box& box, const Segment& segment, double margin, const Visit& visit) const;
-  /// Does the same bin by bin: calls visit(span of indices, ascending).
+  /// Does the same bin by bin: calls visit(indices of the bin's segments, ascending).
   template <class Visit>
   void for_each_bin_near(const Box& box, const Segment& segment, double margin, const Visit& visit) const;
 
-  /// Returns the number of cells. Bin k lists the segments that meet cell k, ascending; it is empty if the cell is
-  /// split. Two segments that meet share a bin.
+  /// Returns the number of cells. Bin k lists the segments that meet cell k, in ascending order; it is empty if the
+  /// cell is split. Two segments that meet have a bin in common.
   std::size_t bins() const { return cells_.size(); }
   std::span<const LocalIndex> bin(std::size_t k) const {
     return cells_[k].split ? std::span<const LocalIndex>{} : listed_in(cells_[k]);
@@ -63,17 +64,18 @@ public:
   std::size_t memory_bytes() const;
 
 private:
-  /// A leaf lists the segments that meet the closed cell; a split cell has 16 children, row by row from below.
+  /// A cell of the tree. A leaf lists the segments that meet the closed cell; a split cell has 16 children, row by row
+  /// from below.
   struct Cell {
-    LocalIndex first = 0;          ///< into cell_segment_, or the first child in cells_
-    std::uint32_t listed : 30 = 0; ///< segments
+    LocalIndex first = 0; ///< for a leaf its first index in cell_segment_, for a split cell its first child in cells_
+    std::uint32_t listed : 30 = 0; ///< number of segments in a leaf
     std::uint32_t split : 1 = 0;
-    std::uint32_t corner_inside : 1 = 0; ///< parity at the lower-left corner, perturbed
+    std::uint32_t corner_inside : 1 = 0; ///< whether the lower-left corner, perturbed, lies inside the polygons
 
     LocalIndex count() const { return static_cast<LocalIndex>(listed); }
     LocalIndex last() const { return first + count(); }
   };
-  /// A cell with its place: lower-left corner and side.
+  /// A cell with its lower-left corner and its side.
   struct Placed {
     LocalIndex cell;
     Vec2 corner;
@@ -82,10 +84,10 @@ private:
     Placed child(LocalIndex first, int i, int j) const {
       return {first + 4 * j + i, {corner.x + 0.25 * side * i, corner.y + 0.25 * side * j}, 0.25 * side};
     }
-    /// Squared distance from p to the closed cell.
+    /// Returns the squared distance from p to the closed cell.
     double squared_distance(Vec2 p) const;
-    /// Returns whether a point of the closed cell may lie within `margin` of the line through the segment. Never false
-    /// if one does.
+    /// Returns whether a point of the closed cell may lie within `margin` of the line through the segment. The answer
+    /// is never false if such a point exists.
     bool may_be_near(const Segment& segment, double margin) const;
   };
   class Builder;
@@ -110,13 +112,13 @@ private:
   std::vector<LocalIndex> cell_segment_; // segment indices, ascending in each leaf
 };
 
-/// Calls visit(segments of the cell) for cells that meet the box and are wanted.
+/// Calls visit(segments of the cell) for all leaf cells that meet the box and for which `wanted` is true.
 template <class Wanted, class Visit>
 bool SegmentGrid::visit_near(const Placed& place, const Box& box, const Wanted& wanted, const Visit& visit) const {
   const Cell& cell = cells_[place.cell];
   if (!cell.split)
     return visit(listed_in(cell));
-  // No child beyond these, which are a little too many for rounding, meets the box.
+  // Children outside of this range do not meet the box. The range is slightly too large, to allow for rounding.
   const double inverse = 4 / place.side;
   const auto first = [&](double v) { return static_cast<int>(std::clamp(v * inverse - 0x1p-20, 0.0, 3.0)); };
   const auto last = [&](double v) { return static_cast<int>(std::clamp(v * inverse + 0x1p-20, 0.0, 3.0)); };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Points and vectors of the plane, the axis-parallel box, and the segment with the one formula for the distance to it.
+// Points and vectors of the plane, the axis-parallel box, and the segment. Also holds the formula by which the whole
+// program computes the distance to a segment.
 #pragma once
 
 #include <algorithm>
@@ -34,7 +35,7 @@ inline double length(Vec2 a) {
 constexpr Vec2 left_normal(Vec2 a) {
   return {-a.y, a.x};
 }
-/// Compares the coordinates lexicographically, x first. This order breaks all ties.
+/// Compares the coordinates lexicographically, x first. The program breaks all ties by this order.
 constexpr bool lexicographically_less(Vec2 a, Vec2 b) {
   return a.x < b.x || (a.x == b.x && a.y < b.y);
 }
@@ -59,8 +60,8 @@ struct Box {
   }
 };
 
-/// The smallest box around both, and the box that both have in common (empty, with min > max, if there is no common
-/// point).
+/// Return the smallest box around two boxes, and the box that both have in common (empty, with min > max, if there is
+/// no common point).
 inline Box united(const Box& a, const Box& b) {
   return {{std::min(a.min.x, b.min.x), std::min(a.min.y, b.min.y)},
           {std::max(a.max.x, b.max.x), std::max(a.max.y, b.max.y)}};

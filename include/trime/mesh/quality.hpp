@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Quality of triangles and of whole meshes. Statistics consist of integers (fixed-point sums, histograms), so that
-// merging them in any order gives the same bits. The certificate of a mesh is a list of named checks.
+// Measures the quality of triangles and of whole meshes. Statistics consist of integers (fixed-point sums, histograms),
+// so merging them in any order gives the same bits. Also defines the checks of a mesh: named pairs of an expected and a
+// found value.
 #pragma once
 
 #include "trime/core/sum.hpp"
@@ -17,44 +18,48 @@
 
 namespace trime::mesh {
 
-/// @brief Returns alpha = abc / (8 (s-a)(s-b)(s-c)) = R/(2r), where s is half the perimeter: 1 for an equilateral
-/// triangle, infinity for a flat one.
+/// @brief Returns alpha = abc / (8 (s-a)(s-b)(s-c)) = R/(2r) of a triangle with side lengths a, b, c and half perimeter
+/// s: 1 for an equilateral triangle, infinity for a flat one.
 double aspect_ratio(geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r);
-/// @brief If the squared edges of a triangle add up to less than the returned value times twice its area, its aspect
-/// ratio is below the limit. Few other triangles are below the limit; for limits above 1.13 the test finds only those
-/// below 1.13. @pre limit > 1
+/// @brief Returns a threshold for a fast test: if the squared edges of a triangle add up to less than the threshold
+/// times twice its area, its alpha is below `limit`. Few other triangles have an alpha below `limit`. For limits above
+/// 1.13, however, the test accepts only triangles with alpha below 1.13.
+/// @pre limit > 1
 ///
-/// Reason: let eta = (a^2 + b^2 + c^2) / (4 sqrt(3) area). Among all triangles with one eta, an isosceles one has the
-/// largest alpha. Up to eta = 1.1 this alpha is less than 1 + 1.3 (eta - 1).
+/// Reason: let eta = (a^2 + b^2 + c^2) / (4 sqrt(3) area). Among all triangles with the same eta, an isosceles one has
+/// the largest alpha. If eta is at most 1.1, this alpha is less than 1 + 1.3 (eta - 1).
 constexpr double squares_surely_below(double limit) {
   constexpr double root_3 = 1.7320508075688772, steepness = 1.3, largest_excess = 0.1;
   return (1 + std::min((limit - 1) / steepness, largest_excess)) * 2 * root_3;
 }
-/// @brief Returns true only if the aspect ratio is certainly below a limit. Uses squares_surely_below, without root and
-/// division; this settles most triangles of a good mesh. Never returns true if the ratio is not below the limit.
+/// @brief Returns true only if the alpha of a triangle is certainly below a limit. Uses squares_surely_below, without
+/// root and division; this settles most triangles of a good mesh. May return false although alpha is below the limit.
 inline bool is_surely_below(double limit, geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r) {
   const geometry::Vec2 u = q - p, v = r - p;
   const double squares = geometry::squared_length(u) + geometry::squared_length(v) + geometry::squared_length(r - q);
   return squares < squares_surely_below(limit) * geometry::cross(u, v);
 }
-/// Returns beta = longest edge / shortest edge.
+/// Returns beta = longest edge / shortest edge of a triangle.
 double edge_ratio(geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r);
-/// Returns the smallest angle in degrees.
+/// Returns the smallest angle of a triangle in degrees.
 double min_angle_degrees(geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r);
 
-/// The measures above for one triangle.
+/// Quality measures of one triangle.
 struct TriangleMeasures {
   double alpha, beta;
-  double least_sine; ///< sine of the smallest angle; not a number if all three points are equal
+  double least_sine; ///< sine of the smallest angle; NaN if all three points are equal
 };
 inline TriangleMeasures measure_triangle(geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const double a = geometry::length(q - r), b = geometry::length(r - p), c = geometry::length(p - q);
   const double twice_area = geometry::cross(q - p, r - p);
   const double shortest = std::min(std::min(a, b), c), longest = std::max(std::max(a, b), c);
-  // With the area A = |cross|/2: abc/(8(s-a)(s-b)(s-c)) = abc s/(8 A^2), which does not cancel for flat triangles.
+  // With the area A = |cross|/2, abc/(8(s-a)(s-b)(s-c)) = abc s/(8 A^2). The right side has no cancellation for flat
+  // triangles.
   const double alpha = std::max(1.0, a * b * c * (a + b + c) / (4 * twice_area * twice_area));
-  const double others = a == shortest ? b * c : b == shortest ? c * a : a * b; // the smallest angle lies between them
+  const double others = a == shortest   ? b * c
+                        : b == shortest ? c * a
+                                        : a * b; // product of the two longer sides, which enclose the smallest angle
   return {twice_area == 0 ? infinity : alpha, shortest > 0 ? longest / shortest : infinity,
           std::fabs(twice_area) / others};
 }
@@ -64,28 +69,28 @@ struct RatioSummary {
   double median = 1, mean = 1, max = 1, half_mean = 1, std = 0;
 };
 
-/// @brief Mergeable statistics of a ratio >= 1. Values are capped at 2^16 in the sums and exact in the maximum. The
-/// median comes from bins with a width of 1e-6 up to 1.01, 1e-4 up to 2, 1e-2 up to 10, and 1.6 % beyond. There are
-/// many bins, so ranks do not sum all of them: they sum the result of `pack` first, then the one run of bins that holds
-/// the median. See RatioTotals.
+/// @brief Statistics of a ratio that is at least 1, which can be merged. Values are capped at 2^16 in the sums; the
+/// maximum is exact. The median comes from bins with a width of 1e-6 up to 1.01, 1e-4 up to 2, 1e-2 up to 10, and 1.6 %
+/// of the value beyond. Because there are many bins, ranks do not sum all of them: first they sum the result of `pack`,
+/// then only the run of bins that contains the median. See RatioTotals.
 class RatioStatistics {
 public:
   RatioStatistics();
   void add(double ratio);
-  /// Adds several ratios, at most 4096, with the same result as one after the other.
+  /// Adds several ratios, at most 4096. The result is the same as if they were added one by one.
   void add(std::span<const double> ratios);
   void merge(const RatioStatistics& other);
   double max() const { return max_; }
 
   static constexpr std::size_t classes = 9;
-  /// Lower ends of the classes [1,1.01), [1.01,1.02), [1.02,1.05), [1.05,1.1), [1.1,1.2), [1.2,1.5), [1.5,2), [2,5),
-  /// [5,inf).
+  /// Lower ends of the classes of the histogram: [1,1.01), [1.01,1.02), [1.02,1.05), [1.05,1.1), [1.1,1.2), [1.2,1.5),
+  /// [1.5,2), [2,5), [5,inf).
   static constexpr std::array<double, classes> histogram_edges{1, 1.01, 1.02, 1.05, 1.1, 1.2, 1.5, 2, 5};
-  static constexpr std::size_t run_length = 128; ///< bins
-  /// The packed numbers are three sums of two words each, then the counts in classes and in runs of bins.
+  static constexpr std::size_t run_length = 128; ///< number of bins in a run
+  /// `pack` returns three sums of two words each, then the counts in the classes, then the counts in the runs of bins.
   static constexpr std::size_t runs = 169, packed_size = 6 + classes + runs;
   std::array<std::int64_t, packed_size> pack() const;
-  /// Returns the run_length counts in the bins of a run.
+  /// Returns the counts in the bins of a run; there are run_length of them.
   std::span<const std::int64_t> bins(std::size_t run) const;
 
 private:
@@ -94,30 +99,31 @@ private:
   std::vector<std::int64_t> bins_;
 };
 
-/// The statistics of all ranks together.
+/// The statistics of a ratio over all ranks, computed from packed sums.
 class RatioTotals {
 public:
-  /// @param packed the results of RatioStatistics::pack, summed over all ranks
+  /// @param packed the results of RatioStatistics::pack, added over all ranks
   RatioTotals(std::span<const std::int64_t, RatioStatistics::packed_size> packed, double max);
-  /// Returns the run of bins that holds the median.
+  /// Returns the number of the run of bins that contains the median.
   std::size_t median_run() const { return median_run_; }
-  /// @param bins counts in the run with the median, summed over all ranks
+  /// @param bins counts in the bins of the median's run, added over all ranks
   RatioSummary summary(std::span<const std::int64_t> bins) const;
-  /// Returns the counts in the classes.
+  /// Returns the counts in the classes of the histogram.
   const std::array<std::int64_t, RatioStatistics::classes>& histogram() const { return histogram_; }
 
 private:
-  std::int64_t count_ = 0, below_ = 0; // below_: in the runs before that of the median
+  std::int64_t count_ = 0, below_ = 0; // below_: count of all values in the runs before the median's run
   std::size_t median_run_ = 0;
   double mean_ = 1, half_mean_ = 1, std_ = 0, max_ = 1;
   std::array<std::int64_t, RatioStatistics::classes> histogram_{};
 };
 
-/// One of the worst triangles, and the sharp corner of the shape that excuses it.
+/// One of the worst triangles, and the sharp corner of the shape that explains its bad quality.
 struct BadTriangle {
   double alpha = 0;
-  geometry::Vec2 place;      ///< its centre
-  double corner_degrees = 0; ///< angle of the nearest sharp corner within 3 of its longest edges; 0: no such corner
+  geometry::Vec2 place;      ///< centre of the triangle
+  double corner_degrees = 0; ///< angle of the nearest sharp corner, at most 3 longest edges of the triangle away; 0:
+                             ///< there is no such corner
   geometry::Vec2 corner;
 };
 
@@ -125,23 +131,26 @@ struct BadTriangle {
 struct QualitySummary {
   RatioSummary alpha, beta;
   double min_angle_degrees = 60;
-  geometry::Vec2 worst_place;         ///< centre of the triangle with the largest alpha
-  double shortest_edge = 0;           ///< its length
-  geometry::Vec2 shortest_place;      ///< its middle; of equally short edges the first in lexicographic order
-  double size_mean = 1, size_std = 0; ///< L / (s h(mid)) over edges; s is chosen so that the mean is 1
+  geometry::Vec2 worst_place; ///< centre of the triangle with the largest alpha
+  double shortest_edge = 0;   ///< length of the shortest edge of the mesh
+  geometry::Vec2
+      shortest_place; ///< middle of the shortest edge; of equally short edges, the lexicographically first middle
+  double size_mean = 1, size_std = 0; ///< mean and standard deviation of L / (s h) over all edges of length L, with h
+                                      ///< at the middle; s is chosen so that the mean is 1
   std::array<std::int64_t, RatioStatistics::classes> alpha_histogram{};
-  std::int64_t bad_triangles = 0;           ///< number of triangles with alpha above 2
-  std::vector<BadTriangle> worst_triangles; ///< at most 10 of them, the worst first
-  BadTriangle worst_away; ///< the worst of them without a sharp corner near it; alpha 0: no such triangle
+  std::int64_t bad_triangles = 0;           ///< number of triangles with an alpha above 2
+  std::vector<BadTriangle> worst_triangles; ///< the worst triangles with an alpha above 2, at most 10, the worst first
+  BadTriangle
+      worst_away; ///< the worst triangle without a sharp corner near it; alpha is 0 if there is no such triangle
 };
 
-/// One check.
+/// One check of the mesh: it passes if the found value agrees with the expected one.
 struct Check {
-  std::string name; ///< lower case with underscores, also the name in the file
+  std::string name; ///< lower case with underscores; also the name in the mesh file
   double expected = 0;
   double found = 0;
   bool passed = false;
-  std::string meaning; ///< one line for the report
+  std::string meaning; ///< explanation in one line, for the report
 };
 
 using Checks = std::vector<Check>;

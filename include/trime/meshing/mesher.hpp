@@ -1,6 +1,5 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// The mesher: makes a certified mesh from a domain or shape and a size field, on all ranks, or estimates what it would
-// do to the boundary.
+// SPDX-License-Identifier: BSD-3-Clause The mesher: makes a certified mesh from a domain or shape and a size field, on
+// all ranks. The mesher can also estimate, without making a mesh, how it would simplify the boundary.
 #pragma once
 
 #include "trime/boundary/features.hpp"
@@ -17,35 +16,36 @@
 
 namespace trime::meshing {
 
-/// An estimate of MeshResult::features, and the resolution at which nothing would be simplified.
+/// An estimate of how a run would simplify the boundary (MeshResult::features), and of the resolution at which it would
+/// simplify nothing.
 struct Outlook {
   boundary::FeatureReport features;
-  bool keeps_all = false; ///< nothing is simplified or dropped
-  /// Number of points that keep everything, about; a lower bound if not `is_enough`.
+  bool keeps_all = false; ///< true if nothing would be simplified or dropped
+  /// Estimated number of points with which nothing is simplified; only a lower bound if `is_enough` is false.
   double keeping_points = 0;
-  double keeping_edge_length = 0; ///< mean edge length of that many points
-  bool is_enough = false;
+  double keeping_edge_length = 0; ///< mean edge length of a mesh with keeping_points points
+  bool is_enough = false;         ///< whether a mesh of keeping_points points would keep everything
 };
 
-/// The mesh in the middle of a run; valid during the call of the observer.
+/// The mesh in the middle of a run. Valid only during the call of the observer.
 struct Snapshot {
-  int retriangulation; ///< counted from 1
+  int retriangulation; ///< number of triangulations since the start, counted from 1
   double seconds;      ///< time since the start of the run
   const mesh::DistributedMesh& mesh;
   const mesh::QualitySummary& quality;
-  const std::vector<polygon::LoopSummary>& loops; ///< see MeshResult
+  const std::vector<polygon::LoopSummary>& loops; ///< the loops of the boundary, see MeshResult::loops
 };
-/// Called on all ranks together; may communicate.
+/// A function that receives snapshots of the mesh. The function is called on all ranks together, and may communicate.
 using SnapshotObserver = std::function<void(const Snapshot&)>;
 
 class Checkpoints;
 struct SavedRun;
 
-/// Makes one mesh. Use make_mesh unless you need snapshots, checkpoints or an outlook.
+/// Makes one mesh. Use the function make_mesh unless you need snapshots, checkpoints or an estimate (outlook).
 class Mesher {
 public:
-  /// @brief Keeps references: all arguments must outlive the object. `domain` and `size` must have the same bits on
-  /// every rank.
+  /// @brief Keeps references to all arguments, which must outlive this object. `domain` and `size` must have the same
+  /// bits on every rank.
   Mesher(const comm::Communicator& comm, const geometry::Domain& domain, const sizing::SizeField& size,
          const MeshOptions& options, Log& log, TimerTable& timers);
   Mesher(const comm::Communicator&, const geometry::Domain&&, const sizing::SizeField&, const MeshOptions&, Log&,
@@ -54,26 +54,27 @@ public:
          TimerTable&) = delete;
   ~Mesher();
 
-  /// @brief Sets the observer, which is called with the triangulations that MeshOptions::snapshot_interval asks for.
-  /// There is at most one observer. Call it before run.
+  /// @brief Sets the observer that receives the snapshots that MeshOptions::snapshot_interval asks for. There is at
+  /// most one observer. Must be called before run.
   void on_snapshot(SnapshotObserver observer);
 
-  /// Sets the object that keeps checkpoints of the run; it must outlive this object. Call it before run.
+  /// Sets the object that writes the checkpoints of the run; it must outlive this object. Must be called before run.
   void keep_checkpoints(Checkpoints& checkpoints);
-  /// @brief Continues a run from a checkpoint, to the mesh that the run would have made. Call it before run.
+  /// @brief Continues a run from a checkpoint; run() then makes the same mesh as the interrupted run would have made.
+  /// Must be called before run.
   /// @param saved state of a run with the same boundary, size and options, on any number of ranks; must outlive this
   /// object
   void go_on_from(const SavedRun& saved);
 
   /// @brief Makes the mesh. @note Collective.
-  /// @throws GeometryError on all ranks together if the shape cannot be meshed at this resolution
-  /// @throws ConfigError on all ranks together for options that no mesh can meet
-  /// @throws FileError on all ranks together if the checkpoint does not fit this run
+  /// @throws GeometryError on all ranks together if the shape cannot be meshed at the wanted resolution
+  /// @throws ConfigError on all ranks together for options that no mesh can satisfy
+  /// @throws FileError on all ranks together if the checkpoint does not belong to this run
   MeshResult run();
 
-  /// @brief Estimates what run() will do to the boundary, without making a mesh. Takes as long as the start of a mesh
-  /// of 10^5 points, and at most 12 simplifications of the boundary. @note Collective.
-  /// @throws as run
+  /// @brief Estimates how run() will simplify the boundary, without making a mesh. Takes as long as the first steps of
+  /// a mesh of 10^5 points, plus at most 12 simplifications of the boundary.
+  /// @throws the errors of run()
   Outlook outlook() const;
 
 private:
@@ -81,8 +82,8 @@ private:
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// @brief Makes a mesh of a domain. `domain` and `size` must give the same bits on every rank.
-/// @throws ConfigError, GeometryError on all ranks together, see Mesher::run
+/// @brief Makes a mesh of a domain. `domain` and `size` must have the same bits on every rank.
+/// @throws ConfigError, GeometryError on all ranks together under the conditions of Mesher::run
 /// @note Collective.
 MeshResult make_mesh(const comm::Communicator& comm, const geometry::Domain& domain, const sizing::SizeField& size,
                      const MeshOptions& options, Log& log);
@@ -91,14 +92,15 @@ MeshResult make_mesh(const comm::Communicator& comm, const geometry::Domain& dom
 MeshResult make_mesh(const comm::Communicator& comm, const shape::RegionShape& shape, const sizing::SizeField& size,
                      const MeshOptions& options, Log& log);
 
-/// @brief Makes the domain where a function is negative, by tracing it in the container of `frame`.
-/// @throws GeometryError on all ranks together, see shape::traced_part; if the shape throws on any rank, an Error with
-/// its message on all ranks
+/// @brief Makes the domain where a function is negative. The zero set of the function is traced in the container of
+/// `frame`.
+/// @throws GeometryError on all ranks together under the conditions of shape::traced_part; if the function throws on
+/// any rank, an Error with its message on all ranks
 /// @note Collective.
 geometry::Domain traced_domain(const comm::Communicator& comm, const tracing::Shape& shape,
                                const geometry::Frame& frame);
 
-/// Returns true if the stop rule was met and every check passed.
+/// Returns true if the sweeps converged or stopped improving the mesh, and every check passed.
 bool is_complete(const MeshResult& result);
 
 } // namespace trime::meshing

@@ -18,50 +18,56 @@
 
 namespace trime::meshing {
 
-/// Options of one mesh.
+/// Options for making one mesh.
 struct MeshOptions {
-  std::optional<GlobalId> points;    ///< exactly one of points and edge_length is set
-  std::optional<double> edge_length; ///< target edge length (uniform size)
+  std::optional<GlobalId> points;    ///< number of points; exactly one of points and edge_length must be set
+  std::optional<double> edge_length; ///< target edge length; if the size varies, its mean
   sweep::Method method = sweep::Method::hybrid;
   std::uint64_t seed = 1;
   int max_sweeps = 500;
 
-  std::optional<int> cells_x, cells_y;      ///< container grid; empty: about 3.3 points a cell
-  std::optional<double> min_size, max_size; ///< absolute bounds on h
+  std::optional<int> cells_x, cells_y;      ///< cells of the grid over the container; empty: about 3.3 points per cell
+  std::optional<double> min_size, max_size; ///< lower and upper bound on the target edge length h
   boundary::FeatureOptions features;        ///< which corners, islands and lakes the mesh keeps
 
-  start::Start start = start::Start::automatic; ///< lattice for a uniform size field, else coarse to fine
-  /// Share of the points that are placed before the first sweep. The others are inserted in stages, where triangles are
-  /// largest for their place. Empty: all points are placed at once, as `start` says.
+  start::Start start = start::Start::automatic; ///< how the first points are placed; automatic: a lattice for a uniform
+                                                ///< size field, otherwise coarse to fine
+  /// Share of the points that are placed before the first sweep. The other points are inserted in later stages, into
+  /// the triangles that are largest compared with h. Empty: all points are placed at the beginning, in the way that
+  /// `start` names.
   std::optional<double> initial_fraction;
-  std::optional<double> stop_tolerance; ///< empty: default of the method
-  /// Exponent of 1/h in the weight of the Voronoi cells: 4 keeps the spacing proportional to h; other values are for
-  /// comparisons.
+  std::optional<double>
+      stop_tolerance; ///< least gain of quality in six sweeps, below which a stage ends; empty: default of the method
+  /// Exponent of 1/h in the weight of the Voronoi cells. With 4 the distance between points is proportional to h; other
+  /// values serve comparisons.
   int density_exponent = 4;
   sweep::StarTests star_tests; ///< slow options for tests
-  double worst_alpha = 5;      ///< a worse triangle away from corners below 60 degrees fails a check of the mesh
-  bool cleanup = true;         ///< improve the worst triangles after the sweeps
-  /// 0: no snapshots; -2: a snapshot of the first triangulation; n > 0: of the first and of every n-th.
+  double worst_alpha =
+      5; ///< a triangle with a larger alpha, R/(2r), fails a check, unless it lies at a corner below 60 degrees
+  bool cleanup = true; ///< whether the worst triangles are improved after the sweeps
+  /// 0: no snapshots; -2: one snapshot of the first triangulation; n > 0: snapshots of the first and of every n-th
+  /// triangulation.
   int snapshot_interval = 0;
 };
 
-/// The mesh and everything that the run reports about it.
+/// The mesh, and everything that the report of a run prints about it.
 struct MeshResult {
   mesh::DistributedMesh mesh;
   mesh::QualitySummary quality;
   mesh::Checks checks;
   std::vector<sweep::SweepRecord> history;
-  int triangulations = 0; ///< how often sites were triangulated: once per stage, and once after every move
+  int triangulations = 0; ///< how often sites were triangulated: once per stage, and once after every move of all sites
   sweep::StopReason stop_reason = sweep::StopReason::sweep_cap;
-  GlobalId requested_points = 0; ///< 0 if an edge length was asked for
-  double edge_length = 0;        ///< uniform size: h; otherwise edge length of as many equal triangles
-  std::string start_reason;      ///< which start was chosen and why, in one line
-  std::string count_reason;      ///< why there are fewer points than requested; empty if they are nearly as many
-  std::vector<polygon::LoopSummary> loops; ///< ordered by tag
+  GlobalId requested_points = 0; ///< number of points that the user asked for; 0 if an edge length was given
+  double edge_length = 0; ///< for a uniform size h; otherwise the edge length of equilateral triangles that would fill
+                          ///< the shape with as many points
+  std::string start_reason; ///< the chosen start and the reason for it, in one line
+  std::string count_reason; ///< the reason why there are fewer points than requested; empty if the difference is small
+  std::vector<polygon::LoopSummary> loops; ///< the loops of the mesh boundary, ordered by tag
   cleanup::CleanupCounts cleanup;
   GlobalId corners = 0;
   int components = 0, holes = 0;
-  double shape_area = 0; ///< area of the meshed shape: without dropped islands, with dropped lakes
+  double shape_area = 0; ///< area of the meshed shape, without dropped islands but with filled lakes
   boundary::FeatureReport features;
 };
 

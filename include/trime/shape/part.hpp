@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The named parts that a region is made of: polygons (rectangle, triangle, contour, traced function) and circles. All
-// coordinates lie on the lattice of the container, so the inside tests are exact.
+// The named parts from which a shape is composed: polygons (rectangle, triangle, contour, traced function) and circles.
+// All coordinates lie on the coordinate lattice of the container, so the inside tests are exact.
 #pragma once
 
 #include "trime/contours/contour.hpp"
@@ -16,36 +16,37 @@
 
 namespace trime::shape {
 
-/// A circle whose centre and radius are multiples of the lattice step.
+/// A circle whose centre and radius are multiples of the coordinate lattice's step.
 struct Circle {
   geometry::Vec2 center;
   double radius;
 };
 
-/// Simple closed rings that do not meet. The even-odd rule says what is inside.
+/// Simple closed rings that do not meet each other. A point is inside if an odd number of rings enclose it.
 struct Polygon {
-  /// Segments first .. first + count - 1 of the grid; `reversed` if the interior lies on their right.
+  /// A ring consists of the segments first .. first + count - 1 of the grid; `reversed` if the interior lies on their
+  /// right.
   struct Ring {
     LocalIndex first, count;
     bool reversed;
   };
-  geometry::SegmentGrid grid; ///< segments ring by ring, each starting where the one before it ends
+  geometry::SegmentGrid grid; ///< the segments ring by ring; each segment starts where the one before it ends
   std::vector<Ring> rings;
   std::vector<int> markers{};              ///< marker of each segment; 0 for no marker; empty if all are 0
-  std::vector<std::string> marker_names{}; ///< Contour::marker_names
+  std::vector<std::string> marker_names{}; ///< names of the markers, as in Contour::marker_names
 };
 
-/// Returns the four vertices of a circle at angles 0, pi/2, pi, 3 pi/2; exact.
+/// Returns the four points of a circle at the angles 0, pi/2, pi, 3 pi/2. They are exact.
 std::array<geometry::Vec2, 4> quadrant_vertices(const Circle& circle);
 
 /// @brief Returns the counter-clockwise arc of `circle` from a to b, less than a full turn.
 geometry::Piece make_arc(const Circle& circle, geometry::Vec2 a, geometry::Vec2 b);
 
-/// One named part. Immutable.
+/// One named part of a shape. Immutable.
 class Part {
 public:
-  /// @brief Makes an axis-parallel rectangle. @throws GeometryError if it is not wider and higher than 0 or leaves
-  /// frame.reach()
+  /// @brief Makes an axis-parallel rectangle.
+  /// @throws GeometryError if its width or height is not positive, or it leaves frame.reach()
   static Part rectangle(const std::string& name, const geometry::Box& box, const geometry::Frame& frame);
   /// @brief Makes a disc. @throws GeometryError if the radius is not positive or the disc leaves frame.reach()
   static Part circle(const std::string& name, geometry::Vec2 center, double radius, const geometry::Frame& frame);
@@ -53,32 +54,34 @@ public:
   /// leave frame.reach()
   static Part triangle(const std::string& name, const std::array<geometry::Vec2, 3>& corners,
                        const geometry::Frame& frame);
-  /// @brief Makes a part of the rings of a contour, moved by `normalization` and rounded to the lattice. Even-odd
-  /// nesting decides which rings are holes.
+  /// @brief Makes a part from the rings of a contour, moved by `normalization` and rounded to the coordinate lattice. A
+  /// ring inside an odd number of other rings is a hole.
   ///
-  /// Takes O(M log M) for M vertices; the test for crossings uses all threads. Rings that touch at a vertex are
-  /// separated there by about 1e-12 of the container, and the area does not reach through the gap. A ring given twice
-  /// is used once. Warnings report both.
+  /// Takes O(M log M) time for M vertices; the test for crossings uses all threads. Where two rings touch at a vertex,
+  /// they are separated by a gap of about 1e-12 of the container, which the area does not cross. A ring that occurs
+  /// twice is used once. A warning reports each of these changes.
   /// @throws GeometryError `source:line: ...` if rings cross or overlap along edges, enclose no area, or leave
   /// frame.reach()
   static Part contour(const std::string& name, const contours::Contour& contour,
                       const contours::Normalization& normalization, const geometry::Frame& frame);
-  /// @brief Makes a part of a polygon that is on the lattice already. @param warnings for the user, one sentence each
+  /// @brief Makes a part from a polygon whose vertices are already on the coordinate lattice.
+  /// @param warnings for the user, one sentence each
   static Part polygon(const std::string& name, Polygon polygon, std::vector<std::string> warnings = {});
 
   const std::string& name() const { return name_; }
-  /// Warnings for the user, one sentence each: those of the contour, and about vertices that the lattice made equal.
+  /// Warnings for the user, one sentence each: those of the contour, and warnings about vertices that became equal when
+  /// rounded to the coordinate lattice.
   const std::vector<std::string>& warnings() const { return warnings_; }
-  /// Return null if the part is not of this kind.
+  /// Return null if the part is of the other kind.
   const Circle* as_circle() const { return std::get_if<Circle>(&form_); }
   const Polygon* as_polygon() const { return std::get_if<Polygon>(&form_); }
   bool is_contour() const { return is_contour_; }
 
-  /// @brief Returns the closed boundary with the interior on the left; a circle has four arcs that start at the right.
-  /// Loops are in the order of the rings, with tags from 1 and `part` 0.
+  /// @brief Returns the closed boundary with the interior on the left. A circle has four arcs; the first one starts at
+  /// the rightmost point. Loops are in the order of the rings, with tags from 1 and `part` 0.
   std::vector<geometry::Loop> boundary() const;
-  /// @brief Returns whether p lies inside. Exact for lattice points; a point on the boundary may get either answer.
-  /// O(log M), thread-safe.
+  /// @brief Returns whether p lies inside. Exact for points of the coordinate lattice; for a point on the boundary the
+  /// answer may be either. Cost: O(log M). Thread-safe.
   bool inside(geometry::Vec2 p) const;
   /// Returns the distance from p to the boundary of the part. Thread-safe.
   double distance(geometry::Vec2 p) const;

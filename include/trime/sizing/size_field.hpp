@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The size field h(x): the target edge length, uniform, scaled, or from a formula. Derive from SizeField to use your
-// own size.
+// Size fields: the target edge length h(x), as a uniform value, a scaled field, or a formula. Derive from SizeField to
+// use your own size.
 #pragma once
 
 #include "trime/core/formula.hpp"
@@ -11,17 +11,17 @@
 
 namespace trime::sizing {
 
-/// @brief A relative element size, positive; the mesher scales it by one factor to reach the requested number of
-/// points. Threads call it concurrently: implementations must be thread-safe and give the same bits on every rank. If
-/// the mesher finds a value in the shape that is not positive and finite, all ranks throw a GeometryError with the
-/// place and the value.
+/// @brief A relative element size, which must be positive; the mesher scales it by one factor to reach the requested
+/// number of points. Threads call it concurrently: implementations must be thread-safe and give the same bits on every
+/// rank. If the mesher finds a value in the shape that is not positive and finite, all ranks throw a GeometryError with
+/// the place and the value.
 class SizeField {
 public:
   virtual ~SizeField() = default;
   virtual double size(geometry::Vec2 p) const = 0;
-  /// Returns true if the size is the same everywhere. Then the run can start from a lattice.
+  /// Returns true if the size is the same everywhere. Then a run can start from a hexagonal lattice.
   virtual bool is_uniform() const { return false; }
-  /// Returns the bytes of its tables, for the report.
+  /// Returns the number of bytes of the field's tables, for the report.
   virtual std::size_t memory_bytes() const { return 0; }
 };
 
@@ -30,10 +30,12 @@ inline bool is_valid_size(double size) {
   return size > 0 && size <= std::numeric_limits<double>::max();
 }
 
-/// @throws GeometryError that names the place and the value
+/// Throws a GeometryError that names the place and the value.
+/// @throws GeometryError always
 [[noreturn]] void fail_for_size(geometry::Vec2 p, double size);
 
-/// Returns the size at p. @throws GeometryError on this rank alone, unless the size is positive and finite
+/// Returns the size at p.
+/// @throws GeometryError on this rank alone if the size is not positive and finite
 inline double checked_size(const SizeField& field, geometry::Vec2 p) {
   const double size = field.size(p);
   if (!is_valid_size(size))
@@ -41,7 +43,7 @@ inline double checked_size(const SizeField& field, geometry::Vec2 p) {
   return size;
 }
 
-/// A size that is the same everywhere.
+/// A size with the same value everywhere.
 class UniformSize final : public SizeField {
 public:
   explicit UniformSize(double size = 1) : size_(size) {}
@@ -60,12 +62,12 @@ public:
              double max_size = std::numeric_limits<double>::infinity())
       : field_(field), factor_(factor), min_size_(min_size), max_size_(max_size) {}
   ScaledSize(const SizeField&&, double, double = 0, double = 0) = delete;
-  /// Returns an invalid value unchanged, so that the caller finds it.
+  /// Returns the scaled size at p. An invalid value of the field is returned unchanged, so that the caller notices it.
   double size(geometry::Vec2 p) const override {
     const double relative = field_.size(p);
     return is_valid_size(relative) ? scaled(relative) : relative;
   }
-  /// Returns the size for a valid value of the field.
+  /// Returns the scaled size for a valid value of the field.
   double scaled(double relative) const {
     const double size = factor_ * relative;
     return size < min_size_ ? min_size_ : size > max_size_ ? max_size_ : size;
@@ -78,24 +80,25 @@ private:
   double factor_, min_size_, max_size_;
 };
 
-/// @brief A relative size as a formula of x and y. Only ratios count, because the mesher scales the size by one factor.
+/// @brief A relative size given by a formula of x and y. Only ratios of its values count, because the mesher scales the
+/// size by one factor.
 class ExpressionSize final : public SizeField {
 public:
-  /// Positive sizes below this share of the largest one seen on the grid are raised to it.
+  /// Sizes below this share of the largest value on the checking grid are raised to it.
   static constexpr double smallest_share = 1e-6;
-  /// Number of points of the checking grid along each axis.
+  /// Number of points of the checking grid along each axis of the box.
   static constexpr int check_points = 65;
 
-  /// @brief Evaluates the formula on a grid over `box`, about 65^2 times.
+  /// @brief Evaluates the formula on a grid over `box`, 65^2 times.
   /// @pre `formula` outlives this object
-  /// @param box the shape's bounding box
+  /// @param box the bounding box of the shape
   /// @throws ConfigError that names the place and the value if the formula is not positive and finite on the grid
   ExpressionSize(const Formula& formula, const geometry::Box& box);
   ExpressionSize(const Formula&&, const geometry::Box&) = delete;
 
-  /// @brief Returns the value of the formula, or the smallest share if that is larger. Outside the box it uses the
-  /// nearest point of the box. Between the points of the grid the formula may fail: then the invalid value is returned,
-  /// and the mesher reports it.
+  /// @brief Returns the value of the formula, but at least smallest_share of the largest value on the checking grid.
+  /// Outside of the box it uses the nearest point of the box. Between the points of the grid the formula may give an
+  /// invalid value; this value is returned, and the mesher reports it.
   double size(geometry::Vec2 p) const override;
 
 private:

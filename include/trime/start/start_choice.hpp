@@ -4,8 +4,9 @@
 
 namespace trime::start {
 
-/// @brief Where the points come from. Lattice: hexagonal, for uniform sizes. Hilbert: quantiles along the Hilbert
-/// curve. Coarse to fine: a mesh of few points is relaxed, its edges are divided, and again.
+/// @brief How a run places its first points. `lattice`: a hexagonal lattice, for uniform sizes. `hilbert`: along the
+/// Hilbert curve, at equal shares of the wanted density. `coarse_to_fine`: a mesh of few points is relaxed and its
+/// edges are divided, repeatedly. `automatic`: chosen by the size field.
 enum class Start { automatic, lattice, hilbert, coarse_to_fine };
 
 } // namespace trime::start

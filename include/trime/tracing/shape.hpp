@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A shape that is given by a function which is negative inside: a class derived from Shape, or a formula.
+// A shape that is given by a function, which is negative inside: a class derived from Shape, or a formula.
 #pragma once
 
 #include "trime/core/formula.hpp"
@@ -7,14 +7,14 @@
 
 namespace trime::tracing {
 
-/// @brief A shape given by a function: derive from it to mesh your own shape, see traced() and traced_part(). Threads
-/// call it concurrently; it must give the same bits on every rank.
+/// @brief A shape given by a function. Derive from this class to mesh your own shape, see traced() and traced_part().
+/// Threads call the function concurrently; it must give the same bits on every rank.
 class Shape {
 public:
   virtual ~Shape() = default;
-  /// @brief Returns a value that is negative inside, positive outside, and finite in the whole container. Only the zero
-  /// set matters. Near it the function should be Lipschitz with about the same constant everywhere; the signed distance
-  /// is best.
+  /// @brief Returns a value that is negative inside, positive outside, and finite in the whole container. Only its zero
+  /// set matters. Near the zero set the function should be Lipschitz with about the same constant everywhere; the
+  /// signed distance is best.
   virtual double signed_distance(geometry::Vec2 p) const = 0;
 };
 

@@ -198,7 +198,7 @@ TEST(FacadeErrors, Options) {
             error_of<GeometryError>(mesh_with({.points = 100, .fixed_points = {{1, .5}}}))); // in the hole
   if (const comm::Communicator world = comm::Communicator::world(); world.size() > 1) {
     const GlobalId points = 100 + world.rank();
-    expect_in("rank 0 has 'points 100', another one 'points 101'",
+    expect_in("rank 0 has 'points 100', another rank has 'points 101'",
               error_of<ConfigError>(mesh_with({.points = points})));
     MeshOptions lossy{.points = 100};
     lossy.features.max_loss = world.is_root() ? 0.1 : 0.2;
@@ -214,7 +214,7 @@ TEST(FacadeErrors, Shapes) {
   const Shape square = rectangle("a", {0, 0}, {1, 1});
   expect_in("two different parts are called 'a'", error_of<ConfigError>(mesh_of(square - circle("a", {0, 0}, .5))));
   expect_in("letters, digits", error_of<ConfigError>(mesh_of(circle("my part", {0, 0}, .5))));
-  expect_in("which means the container", error_of<ConfigError>(mesh_of(circle("domain", {0, 0}, .5))));
+  expect_in("this name stands for the container", error_of<ConfigError>(mesh_of(circle("domain", {0, 0}, .5))));
   expect_in("the part 'c'", error_of<GeometryError>(mesh_of(circle("c", {0, 0}, 0))));
   expect_in("the part 'r'", error_of<GeometryError>(mesh_of(rectangle("r", {1, 1}, {0, 0}))));
   expect_in("nowhere.xy", error_of<FileError>(mesh_of(contour("f", "nowhere.xy"))));

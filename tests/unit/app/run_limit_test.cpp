@@ -75,8 +75,9 @@ TEST(RunLimit, TellsOfTablesThatEveryRankHolds) {
   Measurements m = good_run();
   m.counters[Counter::grid_bytes].max = 30 << 20;
   m.counters[Counter::size_bytes].max = 30 << 20;
-  EXPECT_EQ(run_limit(m), "memory: tables that every rank holds as a whole take 60.0 MiB, 60 % of what a rank has at "
-                          "most");
+  EXPECT_EQ(run_limit(m),
+            "memory: tables that every rank holds completely take 60.0 MiB, 60 % of the largest memory of a "
+            "rank");
 }
 
 TEST(RunLimit, NamesTheLongestPhaseOfOneRank) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The wrap kernel with as many lanes as AVX2 and AVX-512 give it, compiled for any processor: so every machine tests
-// them.
+// The wrap kernel with as many lanes as on AVX2 and AVX-512, compiled for any processor, so that every machine can test
+// it.
 #pragma once
 
 #include "delaunay/wrap.hpp"

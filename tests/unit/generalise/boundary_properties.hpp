@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What holds for every boundary, and what holds between one and its generalisation: by brute force and exact where
-// that is possible.
+// Checks properties of every boundary, and of a boundary compared with its simplification, by brute force and exactly
+// where possible.
 #pragma once
 
 #include "geometry/predicates.hpp"
@@ -23,7 +23,7 @@ using geometry::Piece;
 using geometry::Segment;
 using geometry::Vec2;
 
-/// Straight pieces as they are, arcs as `parts` chords on the lattice.
+/// Returns straight pieces unchanged, and arcs as `parts` chords with ends on the lattice.
 inline std::vector<Segment> segments_of(const Loop& loop, int parts = 32) {
   std::vector<Segment> segments;
   for (const Piece& piece : loop.pieces) {
@@ -47,12 +47,12 @@ inline std::vector<Segment> segments_of(const Boundary& boundary) {
   return segments;
 }
 
-/// Do the closed segments meet? Common ends count, but for the one where t follows s on a curve.
+/// Returns whether two closed segments meet. Common ends count, except if one segment follows the other on a curve.
 inline bool meet(const Segment& s, const Segment& t) {
   using geometry::orient2d;
   const int a = orient2d(s.a, s.b, t.a), b = orient2d(s.a, s.b, t.b), c = orient2d(t.a, t.b, s.a),
             d = orient2d(t.a, t.b, s.b);
-  if (s.b == t.a || s.a == t.b) { // neighbours, and perhaps at both ends
+  if (s.b == t.a || s.a == t.b) { // neighbours, which may also share their other ends
     const Vec2 p = s.b == t.a ? s.a : s.b, middle = s.b == t.a ? s.b : s.a, q = s.b == t.a ? t.b : t.a;
     return p == q || (orient2d(p, middle, q) == 0 && dot(p - middle, q - middle) > 0);
   }
@@ -65,7 +65,7 @@ inline bool meet(const Segment& s, const Segment& t) {
   return a * b <= 0 && c * d <= 0;
 }
 
-/// The first two segments that meet, as text; empty if there are none. Exact, O(n^2) at worst.
+/// Returns the first two segments that meet as text; empty if no two segments meet. Exact. Cost: at worst O(n^2).
 inline std::string first_meeting(std::vector<Segment> segments) {
   const auto left = [](const Segment& s) { return std::min(s.a.x, s.b.x); };
   std::sort(segments.begin(), segments.end(), [&](const Segment& s, const Segment& t) { return left(s) < left(t); });
@@ -95,7 +95,8 @@ inline double signed_area(const std::vector<Segment>& ring) {
   return area;
 }
 
-/// What Boundary promises: closed loops, no touch, orientation by depth, area; tags differ.
+/// Checks the invariants of Boundary: closed loops that do not touch, orientation by depth of nesting, the area,
+/// different tags.
 inline void expect_proper(const Boundary& boundary) {
   double area = 0;
   std::set<int> tags;
@@ -111,7 +112,7 @@ inline void expect_proper(const Boundary& boundary) {
     double own = signed_area(rings.back());
     EXPECT_EQ(own > 0, loop.outer) << "tag " << loop.tag;
     for (const Piece& piece : loop.pieces)
-      if (piece.circular) { // what the chords leave out
+      if (piece.circular) { // the area between the arc and its chord
         const double step = piece.sweep / 32;
         own += 32 * 0.5 * piece.radius * piece.radius * (step - sin_cos(step).sin);
       }
@@ -128,7 +129,7 @@ inline void expect_proper(const Boundary& boundary) {
   }
 }
 
-/// Vertices at which the user wants the mesh to have one.
+/// Returns the vertices that the user wants to keep as corners.
 inline std::set<std::pair<double, double>> corners_of(const Boundary& boundary) {
   std::set<std::pair<double, double>> corners;
   for (const Loop& loop : boundary.loops)
@@ -155,7 +156,7 @@ inline bool are_equal(const Boundary& a, const Boundary& b) {
                     [](const Loop& p, const Loop& q) { return are_equal(p, q); });
 }
 
-/// Largest distance of a point of `boundary` from the curves of `given`, sampled.
+/// Returns the largest distance from sampled points of `boundary` to the curves of `given`.
 inline double largest_deviation(const Boundary& boundary, const Boundary& given, double spacing) {
   const geometry::SegmentGrid curves(segments_of(given));
   double largest = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shapes with narrow parts, from a seed, in the unit square: every class of them. None crosses or touches itself.
+// Random shapes of several classes with narrow parts, in the unit square. No boundary crosses or touches itself.
 #pragma once
 
 #include "core/random.hpp"
@@ -19,7 +19,7 @@ using geometry::Vec2;
 using testing::boundary_of;
 using testing::polygon_loop;
 
-/// Numbers from a seed, one after the other.
+/// A sequence of random numbers from a seed.
 class Draws {
 public:
   explicit Draws(std::uint64_t seed) : seed_(seed) {}
@@ -37,7 +37,7 @@ inline std::vector<Vec2> reversed(std::vector<Vec2> ring) {
   return ring;
 }
 
-/// Fractal noise around 0 on a circle of n places: midpoints displaced, less from level to level.
+/// Returns fractal noise around 0 at n places on a circle, by midpoint displacement with decreasing amplitude.
 inline std::vector<double> fractal_noise(Draws& draws, std::size_t n, double roughness) {
   std::vector<double> noise(n);
   double height = 1;
@@ -48,7 +48,7 @@ inline std::vector<double> fractal_noise(Draws& draws, std::size_t n, double rou
   return noise;
 }
 
-/// A star around a centre: its radii never fall below a third of `radius` nor exceed it.
+/// Returns a polygon around a centre; its radii are between a third of `radius` and `radius`.
 inline std::vector<Vec2> rough_ring(Draws& draws, Vec2 center, double radius, std::size_t n, double roughness) {
   const std::vector<double> noise = fractal_noise(draws, n, roughness);
   std::vector<Vec2> ring;
@@ -60,7 +60,7 @@ inline std::vector<Vec2> rough_ring(Draws& draws, Vec2 center, double radius, st
   return ring;
 }
 
-/// A square with a kinked crack from its right side, as wide as `width`.
+/// Returns a square with a kinked crack that begins at its right side.
 inline Boundary crack(Draws& draws) {
   const double width = draws.log_between(1e-7, 1e-2);
   const int kinks = draws.whole(0, 4);
@@ -90,7 +90,7 @@ inline Boundary blunt_tip(Draws& draws) {
                                     {0.1, 0.9}})});
 }
 
-/// Teeth on a bar, with gaps between: both narrow and wide ones.
+/// Returns a bar with teeth; some gaps between teeth are narrow, others wide.
 inline Boundary comb(Draws& draws) {
   std::vector<Vec2> ring{{0.05, 0.1}, {0.95, 0.1}};
   std::vector<Vec2> top;
@@ -106,7 +106,7 @@ inline Boundary comb(Draws& draws) {
   return boundary_of({polygon_loop(ring)});
 }
 
-/// A rough coast with spits and inlets that lead straight out and in.
+/// Returns a rough coast with straight spits and inlets.
 inline Boundary spits(Draws& draws) {
   const std::size_t n = std::size_t{1} << draws.whole(6, 9);
   std::vector<Vec2> ring = rough_ring(draws, {0.5, 0.5}, 0.35, n, draws.between(0.4, 0.65));
@@ -119,7 +119,7 @@ inline Boundary spits(Draws& draws) {
   return boundary_of({polygon_loop(ring)});
 }
 
-/// A box with chambers that thin walls part.
+/// Returns a box with chambers separated by thin walls.
 inline Boundary thin_walls(Draws& draws) {
   std::vector<Loop> loops{polygon_loop({{0.05, 0.05}, {0.95, 0.05}, {0.95, 0.95}, {0.05, 0.95}})};
   const int n = draws.whole(2, 5);
@@ -136,7 +136,7 @@ inline Boundary thin_walls(Draws& draws) {
   return boundary_of(std::move(loops));
 }
 
-/// Islands in a row that nearly touch, some with lakes whose rims are thin.
+/// Returns a row of islands that nearly touch; some have lakes with thin rims.
 inline Boundary islands(Draws& draws) {
   std::vector<Loop> loops;
   for (double y = 0.2; y < 0.9; y += 0.3)
@@ -148,7 +148,7 @@ inline Boundary islands(Draws& draws) {
       const std::size_t n = std::size_t{1} << draws.whole(3, 7);
       loops.push_back(polygon_loop(rough_ring(draws, center, radius, n, 0.5), static_cast<int>(loops.size()) + 1));
       if (draws.unit() < 0.5) {
-        // A lake: the island again, smaller.
+        // The lake is a smaller copy of the island.
         std::vector<Vec2> lake;
         const double share = 1 - draws.log_between(1e-4, 0.5);
         for (const geometry::Piece& piece : loops.back().pieces)
@@ -165,7 +165,7 @@ inline Boundary rough_coast(Draws& draws) {
   return boundary_of({polygon_loop(rough_ring(draws, {0.5, 0.5}, 0.45, n, draws.between(0.45, 0.8)))});
 }
 
-/// A rough coast on which vertices have a twin at 1e-7.
+/// Returns a rough coast on which some vertices have a second vertex at a distance of 1e-7.
 inline Boundary near_vertices(Draws& draws) {
   std::vector<Vec2> ring;
   const std::vector<Vec2> single = rough_ring(draws, {0.5, 0.5}, 0.45, std::size_t{1} << draws.whole(5, 9), 0.5);
@@ -178,7 +178,7 @@ inline Boundary near_vertices(Draws& draws) {
   return boundary_of({polygon_loop(ring)});
 }
 
-/// A square with round holes in a row, of arcs, with thin bridges between them.
+/// Returns a square with a row of round holes, bounded by arcs, with thin bridges between them.
 inline Boundary round_holes(Draws& draws) {
   std::vector<Loop> loops{polygon_loop({{0.05, 0.05}, {0.95, 0.05}, {0.95, 0.95}, {0.05, 0.95}})};
   for (double y = 0.3; y < 0.8; y += 0.4)
@@ -190,7 +190,7 @@ inline Boundary round_holes(Draws& draws) {
   return boundary_of(std::move(loops));
 }
 
-/// A class of shapes, and its name.
+/// A class of random shapes, with its name.
 struct ShapeClass {
   const char* name;
   std::function<Boundary(Draws&)> make;

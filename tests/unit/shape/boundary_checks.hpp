@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the tests of geometry share: the invariants of every boundary, and shapes made in one line.
+// Functions that several tests of shapes use: checks of the invariants of a boundary, and short ways to make shapes.
 #pragma once
 
 #include "core/random.hpp"
@@ -23,12 +23,12 @@ inline double random(std::uint64_t i, int slot) {
   return random_unit(1, RandomPurpose::test, i, slot);
 }
 
-/// Random lattice point of the box.
+/// Returns a random point of the box on the coordinate lattice.
 inline Vec2 random_point(std::uint64_t i, const Box& box, const Frame& frame) {
   return frame.snap({box.min.x + random(i, 0) * box.width(), box.min.y + random(i, 1) * box.height()});
 }
 
-/// Loops are closed, start at their smallest vertex, and stand in order with their tags.
+/// Checks that loops are closed, start at their smallest vertex, and are in the order of their tags.
 inline void expect_valid(const Boundary& boundary) {
   ASSERT_FALSE(boundary.loops.empty());
   EXPECT_GT(boundary.area, 0);
@@ -57,7 +57,7 @@ inline void expect_valid(const Boundary& boundary) {
   }
 }
 
-/// The region lies on the left of every piece, seen from points next to its middle.
+/// Checks that the shape lies on the left of every piece, at points next to the middle of the piece.
 inline void expect_inside_on_left(const shape::RegionShape& shape) {
   for (const Loop& loop : shape.boundary().loops)
     for (const Piece& piece : loop.pieces) {
@@ -76,7 +76,7 @@ inline double distance_by_brute_force(const Boundary& boundary, Vec2 p) {
   return best;
 }
 
-/// Message of the GeometryError (or ConfigError) that `make` throws; empty if it does not.
+/// Returns the message of the GeometryError (or ConfigError) that `make` throws; empty if it throws nothing.
 template <class Exception, class Make>
 std::string message_of(const Make& make) {
   try {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the tests of the vector kernels work on: some sites with their stars, all kernels, and one pass of a kernel.
+// Sites and kernels for tests of the vector kernels: some sites with their stars, all kernels, and one pass of a
+// kernel.
 #pragma once
 
 #include "core/simd_level.hpp"
@@ -27,7 +28,8 @@ public:
   double size(Vec2 p) const override { return spacing * (0.8 + 0.4 * p.x * p.y); }
 };
 
-/// Every number of lanes on every machine, and the builds for this machine.
+/// Returns the kernels with all numbers of lanes, which run on every machine, and those that are compiled for this
+/// machine.
 inline std::vector<const SweepKernels*> kernels() {
   std::vector<const SweepKernels*> list{&kernels_portable, &portable_kernels_of_4_lanes, &portable_kernels_of_8_lanes};
 #if defined(__x86_64__)
@@ -39,8 +41,8 @@ inline std::vector<const SweepKernels*> kernels() {
   return list;
 }
 
-/// A jittered lattice with its stars; sites whose stars have gaps or long rings are left out, as the sweeps do.
-/// Optionally some sites are held, as if they lay on a boundary, and those beside them bordered.
+/// A jittered lattice with its stars. Sites whose stars have gaps or many neighbours are left out, as in the sweeps. On
+/// request some sites are held, as if they lay on a boundary, and sites next to them are bordered.
 struct Cloud {
   Cloud(double jitter, bool is_graded, bool holds_some = false)
       : grid(geometry::Box{{0, 0}, {1, 1}}, {{}, {}, spacing}), points(grid) {
@@ -113,14 +115,14 @@ struct Cloud {
 struct Pass {
   explicit Pass(LocalIndex n)
       : suspects(static_cast<std::size_t>(n)), irregular(suspects.size()), guarded(suspects.size()) {}
-  /// All sites are awake.
+  /// Runs a kernel on sites that are all awake.
   void run(const SweepKernels& kernel, const SweepTask& task, LocalIndex end) {
     flags.clear();
     for (LocalIndex i = 0; i < end; ++i)
       flags.push_back(task.classes[i] == SiteClass::held ? 0 : SiteFlags::awake | SiteFlags::watched);
     run_again(kernel, task, end);
   }
-  /// The sites are as the flags say.
+  /// Runs a kernel on sites whose flags were set before.
   void run_again(const SweepKernels& kernel, const SweepTask& task, LocalIndex end) {
     suspects.resize(flags.size());
     irregular.resize(flags.size());

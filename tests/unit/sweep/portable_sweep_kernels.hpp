@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The kernels with more lanes than the portable build has, compiled for any processor: so every machine tests them.
+// The sweep kernels with more lanes than in the portable build, compiled for any processor, so that every machine can
+// test them.
 #pragma once
 
 #include "sweep/sweep_kernel.hpp"
