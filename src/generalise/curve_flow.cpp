@@ -151,6 +151,7 @@ public:
       restore_area(area);
     }
     std::erase_if(nodes_, [](const Node& node) { return !node.given && !node.moved; });
+    leave_out_flat();
     return nodes_.size() > GeneraliseRules::least_vertices &&
            std::any_of(nodes_.begin(), nodes_.end(), [](const Node& node) { return node.moved; });
   }
@@ -356,6 +357,38 @@ private:
       }
     }
     nodes_ = std::move(joined);
+  }
+
+  /// Takes out moved nodes where the curve is nearly straight. The loop keeps its area.
+  void leave_out_flat() {
+    const double area = twice_area();
+    std::vector<Node> left;
+    std::size_t count = nodes_.size();
+    for (std::size_t first = 0, last; first < nodes_.size(); first = last) {
+      left.push_back(nodes_[first]);
+      for (last = first + 1;
+           last < nodes_.size() && count > GeneraliseRules::least_vertices + 1 && is_flat(first, last); ++last)
+        --count;
+    }
+    nodes_ = std::move(left);
+    for (Node& node : nodes_)
+      node.mobility = node.moved;
+    restore_area(area);
+  }
+
+  /// May the curve lead from a node straight to the one behind `last`? Moved nodes lie between straight pieces of one
+  /// part.
+  bool is_flat(std::size_t first, std::size_t last) const {
+    if (!nodes_[last].moved)
+      return false;
+    const geometry::Segment chord{nodes_[first].place, nodes_[ahead(last)].place};
+    const double longest = GeneraliseRules::flow_longest * nodes_[first].size;
+    return squared_length(chord.b - chord.a) <= longest * longest &&
+           std::all_of(nodes_.begin() + static_cast<std::ptrdiff_t>(first) + 1,
+                       nodes_.begin() + static_cast<std::ptrdiff_t>(last) + 1, [&](const Node& node) {
+                         const double close = GeneraliseRules::flow_flat * node.size;
+                         return squared_distance(node.place, chord) < close * close;
+                       });
   }
 
   const Loop& loop_;

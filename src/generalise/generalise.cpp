@@ -288,20 +288,27 @@ struct Passed {
   bool only_thinned;                   ///< there were no narrow parts, or nothing could improve them
 };
 
-/// Plans the cuts of a pass. Once nothing narrow is left inside, it plans to close what is narrow outside, too.
-Plan plan_pass(const CurveMap& map, const std::vector<char>& labels, const Regions& regions, const Choice& choice,
-               Corners& corners) {
-  Plan plan = plan_cuts(map, labels, regions, choice, corners);
-  if (!plan.changed.empty())
-    return plan;
-  Plan more = plan_closings(map, labels, regions, choice, corners);
-  plan.changed = std::move(more.changed);
-  std::move(more.apart.begin(), more.apart.end(), std::back_inserter(plan.apart));
-  plan.rest = std::move(more.rest);
-  plan.witnesses = std::move(more.witnesses);
-  more.counts.add(plan.counts);
-  plan.counts = more.counts;
-  return plan;
+/// What comes of the narrow parts in a pass.
+struct Treated {
+  std::vector<char> labels;      ///< empty if nothing good does
+  std::vector<NarrowPart> apart; ///< their sides are to be moved apart
+  polygon::Simplification counts;
+};
+
+/// Takes narrow parts out of the shape, and closes those of the outside that is left.
+Treated treat_narrow_parts(const CurveMap& map, const std::vector<char>& given, const Regions& regions,
+                           const Choice& choice, Corners& corners) {
+  Plan cuts = plan_cuts(map, given, regions, choice, corners);
+  const std::vector<char> cut = follow_connected(map, given, cuts);
+  if (cut.empty())
+    return {};
+  Plan closings = plan_closings(map, cut, regions, choice, corners);
+  Treated treated{follow_connected(map, cut, closings), std::move(cuts.apart), {}};
+  std::move(closings.apart.begin(), closings.apart.end(), std::back_inserter(treated.apart));
+  corners.held = std::max(corners.held, cuts.counts.held + closings.counts.held);
+  count(map, given, cuts, treated.counts);
+  count(map, cut, closings, treated.counts);
+  return treated;
 }
 
 /// Makes one pass over the boundary. Returns null if nothing is to be done.
@@ -323,14 +330,13 @@ Passed pass_over(const Boundary& boundary, const sizing::SizeField& size, const 
   counts.filled = fill_small_holes(map, *regions, filled);
   if (counts.filled > 0)
     regions.emplace(map, filled);
-  Plan plan = plan_pass(map, filled, *regions, choice, corners);
-  corners.held = std::max(corners.held, plan.counts.held);
-  const std::vector<char> labels = follow_connected(map, filled, plan);
+  Treated treated = treat_narrow_parts(map, filled, *regions, choice, corners);
+  const std::vector<char>& labels = treated.labels;
   if (labels.empty())
     return {};
-  count(map, filled, plan, counts);
+  counts.add(treated.counts);
   VertexMoves moves(map, labels, lattice, choice.bounds);
-  counts.widened = moves.widen(std::move(plan.apart));
+  counts.widened = moves.widen(std::move(treated.apart));
   moves.merge_close_corners();
   counts.largest_move = moves.largest_share();
   const bool is_as_given = labels == given && !moves.any();

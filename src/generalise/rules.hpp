@@ -48,11 +48,13 @@ struct GeneraliseRules {
   /// [rounds] Number of rounds that halve displacements that would invert a triangle; after these they are dropped. Not
   /// measured.
   static constexpr int displacement_rounds = 12;
-  /// [h] Ragged runs of a curve lose vertices that are nearer to each other. Not measured.
-  static constexpr double thinned_share = 0.05;
+  /// [h] Ragged runs of a curve lose vertices that are nearer to each other. Measured on twelve meshes of coasts: with
+  /// 0.05, the simplification takes 1.25 times as long, the mean of the largest alphas is 1.250 instead of 1.238, and
+  /// that of the smallest angles 35.3 degrees instead of 37.1.
+  static constexpr double thinned_share = 0.1;
   /// [share of ragged runs] Smooth runs lose vertices that are nearer to each other: 0.02 h, at which a chord lies
   /// within 5e-5 h of a curve of radius h. Not measured.
-  static constexpr double dense_share = 0.4;
+  static constexpr double dense_share = 0.2;
   /// [1] A loop that loses a larger share of its vertices at once is dense, and is thinned until nothing changes before
   /// narrow parts are searched. Measured, with passes that end earlier: the boundary of a coast of 10^6 segments with
   /// 10^5 points takes 9 s instead of 17 s.
@@ -90,6 +92,10 @@ struct GeneraliseRules {
   static constexpr double flow_spacing = 0.12;
   /// [flow_spacing] Nodes that have come nearer to each other are joined. Not measured.
   static constexpr double flow_join = 0.4;
+  /// [h] Nodes that have moved go if the curve without them lies nearer to them than this. Not measured.
+  static constexpr double flow_flat = 0.003;
+  /// [h] Longest edge that such nodes leave. Not measured.
+  static constexpr double flow_longest = 0.5;
   /// [h] Shorter distances between nodes count as this long, so that rates stay finite. Not measured.
   static constexpr double flow_least_way = 0.005;
   /// [h] Turns back and forth within this distance along the curve, to both sides, make it ragged. Not measured.

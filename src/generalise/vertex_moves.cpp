@@ -40,26 +40,26 @@ VertexMoves::Sides VertexMoves::sides_of(const NarrowPart& part) const {
   Sides sides;
   std::vector<geometry::Segment> ends;
   for (const LocalIndex t : part.triangles) {
-    int constrained = 0;
+    int walls = 0;
     for (HalfEdge e = 3 * t; e < 3 * t + 3; ++e) {
       const LocalIndex a = mesh_.origin(e), b = mesh_.target(e), apex = mesh_.origin(Triangulation::previous(e));
       const Vec2 along = mesh_.point(b) - mesh_.point(a);
       const double whole = length(along);
-      if (!mesh_.is_constrained(e)) {
+      if (!is_wall(e)) {
         for (const LocalIndex v : {a, b})
           sides.vertices[v].gap = std::fmin(sides.vertices[v].gap, whole);
         continue;
       }
-      ++constrained;
+      ++walls;
       const Vec2 outward = (-1 / whole) * geometry::left_normal(along);
       for (const LocalIndex v : {a, b})
         sides.vertices[v].away = sides.vertices[v].away + outward;
       double& gap = sides.vertices[apex].gap;
       gap = std::fmin(gap, cross(along, mesh_.point(apex) - mesh_.point(a)) / whole);
     }
-    if (constrained == 2)
+    if (walls == 2)
       for (HalfEdge e = 3 * t; e < 3 * t + 3; ++e)
-        if (mesh_.is_constrained(e) && mesh_.is_constrained(Triangulation::previous(e)))
+        if (is_wall(e) && is_wall(Triangulation::previous(e)))
           ends.push_back({mesh_.point(mesh_.origin(e)), mesh_.point(mesh_.origin(e))});
   }
   sides.ends = geometry::SegmentGrid(std::move(ends));

@@ -45,6 +45,8 @@ private:
   /// Returns true if no other vertex was moved to it.
   bool is_alone(LocalIndex v) const { return is_root_[at(v)] == 0; }
   bool leaves_a_loop(HalfEdge e) const;
+  /// Returns true if the sides of the edge differ.
+  bool is_wall(HalfEdge e) const { return rim_.is_inside(e) != rim_.is_inside(mesh_.twin(e)); }
   void merge(LocalIndex u, LocalIndex v);
   bool turns_over(LocalIndex t) const;
   /// Moves all vertices of the map by their shifts, onto the lattice and into the bounds.
