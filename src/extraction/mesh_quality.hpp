@@ -35,24 +35,29 @@ private:
   std::vector<Corner> corners_; // in lexicographic order
 };
 
-/// Counts bad triangles and lists the worst, by alpha and then by place. Objects may be merged in any order.
+/// Counts bad and obtuse triangles and lists the worst, by alpha and then by place. Objects may be merged in any order.
 class BadTriangles {
 public:
-  /// @pre alpha is above ExtractionRules::listed_alpha
+  struct Counts {
+    std::int64_t bad = 0;               ///< with alpha above ExtractionRules::listed_alpha
+    std::int64_t obtuse = 0;            ///< with an angle above 90 degrees
+    std::int64_t obtuse_at_corners = 0; ///< obtuse ones with a sharp corner near them
+  };
+  /// @pre alpha is above ExtractionRules::listed_alpha, or the triangle is obtuse
   void add(const mesh::BadTriangle& triangle);
   void merge(const BadTriangles& other);
-  /// Number of triangles of this rank so far.
-  std::int64_t count() const { return count_; }
-  /// @brief Merges the lists of all ranks into the same list on every rank. Collective. @param count number over all
-  /// ranks; if it is 0, nothing is sent
-  void gather(const comm::Communicator& comm, std::int64_t count);
-  /// Writes the count, the list, and the worst triangle away from sharp corners into the summary.
+  /// Numbers of triangles of this rank so far.
+  const Counts& counts() const { return counts_; }
+  /// @brief Merges the lists of all ranks into the same list on every rank. Collective. @param counts numbers over all
+  /// ranks; if all are 0, nothing is sent
+  void gather(const comm::Communicator& comm, const Counts& counts);
+  /// Writes the counts, the list, and the worst triangle away from sharp corners into the summary.
   void tell(mesh::QualitySummary& quality) const;
 
 private:
-  std::int64_t count_ = 0;
+  Counts counts_;
   std::vector<mesh::BadTriangle> worst_; ///< sorted, at most ExtractionRules::most_listed
-  mesh::BadTriangle away_;               ///< the worst triangle that is not near a sharp corner
+  mesh::BadTriangle away_;               ///< the worst bad triangle that is not near a sharp corner
 };
 
 /// Sums over triangles and edges. They can be merged in any order: sums are integers inside, and of equally bad
@@ -108,7 +113,7 @@ private:
     geometry::Vec2 operator[](std::size_t k) const { return {x[k], y[k]}; }
   };
   void measure_triangles();
-  void list(double alpha, std::size_t k);
+  void list_if_bad(double alpha, std::size_t k);
   void measure_edges();
 
   const sizing::SizeField& size_;

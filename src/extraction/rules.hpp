@@ -8,8 +8,8 @@ namespace trime::extraction {
 
 /// Numbers that decide which triangles are listed, and which of them are excused by a sharp corner.
 struct ExtractionRules {
-  /// [1] Triangles with a larger alpha are counted, and the worst of them are listed. They have an angle below 22
-  /// degrees or above 98. Not measured.
+  /// [1] Triangles with a larger alpha are counted, and the worst of them and of the obtuse ones are listed. They have
+  /// an angle below 22 degrees or above 98. Not measured.
   static constexpr double listed_alpha = 2;
   /// [triangles] Largest length of the list, so that it fits into the report. Not measured.
   static constexpr std::size_t most_listed = 10;

@@ -42,6 +42,14 @@ double edge_ratio(geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r);
 /// Returns the smallest angle in degrees.
 double min_angle_degrees(geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r);
 
+/// Returns whether an angle of a triangle is larger than 90 degrees. Exact for points of one lattice.
+bool is_obtuse(geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r);
+/// Returns the largest angle in degrees.
+double max_angle_degrees(geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r);
+/// No obtuse triangle has a smaller aspect ratio: among right-angled triangles the isosceles one has the least ratio,
+/// (1 + sqrt(2)) / 2 = 1.20711.
+inline constexpr double least_obtuse_alpha = 1.2071;
+
 /// The measures above for one triangle.
 struct TriangleMeasures {
   double alpha, beta;
@@ -119,6 +127,8 @@ struct BadTriangle {
   geometry::Vec2 place;      ///< its centre
   double corner_degrees = 0; ///< angle of the nearest sharp corner within 3 of its longest edges; 0: no such corner
   geometry::Vec2 corner;
+  double largest_degrees = 0; ///< its largest angle
+  std::int64_t obtuse = 0;    ///< 1 if this angle is larger than 90 degrees, by exact arithmetic
 };
 
 /// Quality of a whole mesh, as printed and stored.
@@ -131,8 +141,10 @@ struct QualitySummary {
   double size_mean = 1, size_std = 0; ///< L / (s h(mid)) over edges; s is chosen so that the mean is 1
   std::array<std::int64_t, RatioStatistics::classes> alpha_histogram{};
   std::int64_t bad_triangles = 0;           ///< number of triangles with alpha above 2
-  std::vector<BadTriangle> worst_triangles; ///< at most 10 of them, the worst first
-  BadTriangle worst_away; ///< the worst of them without a sharp corner near it; alpha 0: no such triangle
+  std::int64_t obtuse_triangles = 0;        ///< number of triangles with an angle above 90 degrees
+  std::int64_t obtuse_at_corners = 0;       ///< number of those with a sharp corner near them, as BadTriangle says
+  std::vector<BadTriangle> worst_triangles; ///< at most 10 that have alpha above 2 or are obtuse, the worst first
+  BadTriangle worst_away; ///< the worst with alpha above 2 and without a sharp corner near it; alpha 0: none
 };
 
 /// One check.
