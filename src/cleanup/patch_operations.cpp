@@ -214,6 +214,12 @@ void PatchOperations::list(const Patch& now, const BadPlace& place, bool is_thor
     list_around(now, place.corners, v, is_thorough);
 }
 
+void PatchOperations::list_against_obtuse(const Patch& now, const BadPlace& place) {
+  all_.insert(all_.begin(), PatchOperation{});
+  for (std::size_t k = 0; k < 3; ++k)
+    add_insertion(0.5 * (now.mesh.position(place.corners[k]) + now.mesh.position(place.corners[(k + 1) % 3])));
+}
+
 /// Insertions on the edges of a crowded vertex, and deletions of its neighbours.
 void PatchOperations::list_around(const Patch& now, const Corners& worst, LocalIndex v, bool is_thorough) {
   now.mesh.collect_ring(v, ring_);
