@@ -39,10 +39,11 @@ void PatchScore::list_near(const Patch& now, const BadPlace& place) {
     if (now.is_gone(v))
       continue;
     const double squared = geometry::squared_length(now.mesh.position(v) - place.middle);
-    if (!is_within(squared, CleanupRules::score_reach))
+    if (!is_within(squared, obtuse_weight_ > 0 ? Rules::score_reach_if_obtuse : Rules::score_reach))
       continue;
     in_score_[at(v)] = now.role[at(v)] >= VertexRole::scored;
-    if (now.role[at(v)] != VertexRole::free || !is_within(squared, CleanupRules::near_reach))
+    if (now.role[at(v)] != VertexRole::free ||
+        !is_within(squared, obtuse_weight_ > 0 ? Rules::near_reach_if_obtuse : Rules::near_reach))
       continue;
     near_.push_back(v);
     if (is_within(squared, CleanupRules::nearest_reach))
@@ -153,25 +154,26 @@ BadPlace PatchContest::place_of(const Patch& now, const Corners& worst) const {
 bool PatchContest::hold(Patch& now, const Corners& worst, const PatchBudget& budget, Turn turn) {
   const BadPlace place = place_of(now, worst);
   const bool is_first = turn == Turn::before_moves;
-  const bool is_against_obtuse = budget.obtuse_weight > 0;
+  is_against_obtuse_ = budget.obtuse_weight > 0;
   is_thorough_ =
-      is_against_obtuse || (!is_first && place.alpha > (budget.is_again ? budget.again_alpha : Rules::very_bad_alpha));
+      is_against_obtuse_ || (!is_first && place.alpha > (budget.is_again ? budget.again_alpha : Rules::very_bad_alpha));
   mover_.set_thorough(is_thorough_);
-  mover_.set_against_obtuse(is_against_obtuse);
+  mover_.set_against_obtuse(is_against_obtuse_);
   chords_.allow(place.alpha >= Rules::bend_alpha ? Rules::bent_at_last : Rules::bent_at_first);
   const AlphaScore before = score_.begin(now, place, budget.obtuse_weight);
-  if (!is_first && !is_against_obtuse && !is_worth(now, place, before.max, budget))
+  if (!is_first && !is_against_obtuse_ && !is_worth(now, place, before.max, budget))
     return false;
   const double first = (1 - Rules::least_gain) * before.sum;
-  Bar bar{first, first, before.max, before.max, before.obtuse};
+  const double most = is_against_obtuse_ ? std::max(before.max, Rules::alpha_for_obtuse) : before.max;
+  Bar bar{first, first, most, most, before.obtuse};
   if (is_first && !set_bar_by_moves(now, bar))
     return false;
   operations_.list(now, place, is_thorough_);
-  if (is_against_obtuse)
+  if (is_against_obtuse_)
     operations_.list_against_obtuse(now, place);
   try_operations(now, place, budget, bar);
   const double least_bad = budget.is_again ? Rules::refine_alpha : Rules::refine_alpha_at_first;
-  if (!is_first && !is_against_obtuse && std::fmin(place.alpha, bar.largest) > least_bad && !operations_.all().empty())
+  if (!is_first && !is_against_obtuse_ && std::fmin(place.alpha, bar.largest) > least_bad && !operations_.all().empty())
     try_refining(now, place, budget, bar);
   if (bar.found)
     std::swap(now, best_);
@@ -243,7 +245,7 @@ void PatchContest::enter(std::span<Runner> list, Patch& trial, double sum, doubl
 /// @return the sum after the other sweeps, infinite if the trial was given up
 double PatchContest::last_sweeps(const Patch& now, const Runner& finalist, Patch& trial, double hopeless_sum) {
   double last = INFINITY;
-  const int sweeps = (is_thorough_ ? 2 : 1) * Rules::trial_sweeps;
+  const int sweeps = is_against_obtuse_ ? Rules::obtuse_sweeps : (is_thorough_ ? 2 : 1) * Rules::trial_sweeps;
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     relax_near(now, trial, score_.near());
     if (trial.broken)

@@ -113,7 +113,8 @@ private:
   Patch trial_, best_;
   std::vector<Runner> runners_, finalists_; // ordered by sum
   bool is_thorough_ = false;                // true if the triangle is bad enough for many complete trials
-  std::vector<LocalIndex> ring_, touched_;  // vertices: work space
+  bool is_against_obtuse_ = false;
+  std::vector<LocalIndex> ring_, touched_; // vertices: work space
 };
 
 } // namespace trime::cleanup

@@ -185,6 +185,14 @@ struct CleanupRules {
   /// [1] What it adds for each unit of cotangent below 0, in units of obtuse_weight.
   static constexpr double obtuse_slope = 5;
 
+  /// [h] As near_reach and score_reach, in the stages against obtuse triangles: a row of triangles that is shifted
+  /// along the boundary needs a wide surrounding to adapt.
+  static constexpr double near_reach_if_obtuse = 4, score_reach_if_obtuse = 5.3;
+  /// [sweeps] Largest number of last sweeps of a trial in these stages.
+  static constexpr int obtuse_sweeps = 14;
+  /// [alpha] An operation that removes an obtuse triangle may leave other triangles up to this alpha.
+  static constexpr double alpha_for_obtuse = 1.28;
+
   // --- rounds, and the number of sites ------------------------------------------------------------------------------
   /// [stages] The first stage tries every bad place; the others try the worst places of the mesh again.
   static constexpr int stages = 3;
