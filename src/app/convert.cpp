@@ -122,6 +122,9 @@ std::string quality_text(const Metadata& metadata) {
     for (const io::Attribute& attribute : quality->attributes)
       if (attribute.name == name && std::holds_alternative<double>(attribute.value))
         text += fmt::format("{:<15} {:.5g}\n", what, std::get<double>(attribute.value));
+  for (const io::Attribute& attribute : quality->attributes)
+    if (attribute.name == "obtuse_triangles" && std::holds_alternative<std::int64_t>(attribute.value))
+      text += fmt::format("{:<15} {}\n", "obtuse", std::get<std::int64_t>(attribute.value));
   return text;
 }
 

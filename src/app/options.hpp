@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: BSD-3-Clause All options of a run, as plain structs. The options are the content of a config
+// SPDX-License-Identifier: BSD-3-Clause
+// All options of a run, as plain structs. The options are the content of a config
 // file after it was read and checked.
 #pragma once
 

@@ -92,12 +92,14 @@ std::string quality_text(const mesh::QualitySummary& q) {
 
 /// The worst triangles with the corner that excuses each.
 std::string bad_triangles_text(const mesh::QualitySummary& q) {
-  if (q.bad_triangles == 0)
+  if (q.worst_triangles.empty())
     return {};
-  std::string text = fmt::format("Triangles with alpha above 2: {}{}\n", q.bad_triangles,
-                                 std::ssize(q.worst_triangles) < q.bad_triangles ? ", the worst:" : "");
+  std::string text = fmt::format("Triangles with alpha above 2: {}; obtuse triangles: {}, {} of them near sharp "
+                                 "corners; the worst of all these:\n",
+                                 q.bad_triangles, q.obtuse_triangles, q.obtuse_at_corners);
   for (const mesh::BadTriangle& one : q.worst_triangles) {
-    text += fmt::format("  {:>9} at {}: ", ratio_text(one.alpha), Place(one.place, 10));
+    text += fmt::format("  {:>9} at {}: {}angle {:.4f} degrees, ", ratio_text(one.alpha), Place(one.place, 10),
+                        one.obtuse ? "obtuse, " : "", one.largest_degrees);
     text += one.corner_degrees > 0
                 ? fmt::format("at the corner {} of {:.3g} degrees\n", Place(one.corner, 10), one.corner_degrees)
                 : "there is no sharp corner near it\n";

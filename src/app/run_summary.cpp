@@ -55,9 +55,11 @@ std::string quality_text(const mesh::QualitySummary& q) {
   std::string text =
       fmt::format("alpha median {:.4f}, mean {:.4f}, worst {:.4g} at {}; smallest angle {:.2f} degrees", q.alpha.median,
                   q.alpha.mean, q.alpha.max, Place(q.worst_place, 10), q.min_angle_degrees);
-  return q.bad_triangles == 0
-             ? text
-             : text + fmt::format("; {} with alpha above 2", counted(q.bad_triangles, "triangle", "triangles"));
+  if (q.bad_triangles > 0)
+    text += fmt::format("; {} with alpha above 2", counted(q.bad_triangles, "triangle", "triangles"));
+  if (q.obtuse_triangles > 0)
+    text += fmt::format("; {}", counted(q.obtuse_triangles, "obtuse triangle", "obtuse triangles"));
+  return text;
 }
 
 /// The shortest edge, which limits the time step of many solvers.

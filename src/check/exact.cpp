@@ -34,6 +34,13 @@ bool is_inside_circle(Point a, Point b, Point c, Point d) {
   return CGAL::side_of_oriented_circle(cgal(a), cgal(b), cgal(c), cgal(d)) == CGAL::ON_POSITIVE_SIDE;
 }
 
+bool is_obtuse(Point a, Point b, Point c) {
+  const auto is_above_90 = [](Point at, Point from, Point to) {
+    return CGAL::angle(cgal(from), cgal(at), cgal(to)) == CGAL::OBTUSE;
+  };
+  return is_above_90(a, b, c) || is_above_90(b, c, a) || is_above_90(c, a, b);
+}
+
 IntegerPlane::IntegerPlane(const Mesh& mesh) {
   bool first = true;
   const auto include = [&](double value) {

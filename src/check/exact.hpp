@@ -16,6 +16,9 @@ bool is_left_turn(Point a, Point b, Point c);
 /// left turn
 bool is_inside_circle(Point a, Point b, Point c, Point d);
 
+/// Returns whether an angle of the triangle a, b, c is larger than 90 degrees. Exact.
+bool is_obtuse(Point a, Point b, Point c);
+
 using Integer = boost::multiprecision::cpp_int;
 
 /// @brief Represents coordinates by integers, as multiples of their largest common power of two.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "checks.hpp"
+#include "exact.hpp"
 
 #include <algorithm>
 #include <array>
@@ -97,9 +98,10 @@ void check_quality(const StoredFile& file, const Mesh& mesh, Report& report) {
   Tally alpha_wrong, beta_wrong, summary;
   std::vector<double> alpha, beta;
   double angle = 60, shortest = std::numeric_limits<double>::infinity();
-  std::int64_t bad = 0;
+  std::int64_t bad = 0, obtuse = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Measures m = measure(mesh.corners(mesh.triangles[t]));
+    const std::array<Point, 3> corners = mesh.corners(mesh.triangles[t]);
+    const Measures m = measure(corners);
     const auto note = [&](Tally& tally, double expected, double found) {
       if (!near(expected, found, float_tolerance))
         tally.note(
@@ -112,6 +114,7 @@ void check_quality(const StoredFile& file, const Mesh& mesh, Report& report) {
     angle = std::min(angle, m.angle);
     shortest = std::min(shortest, m.shortest);
     bad += m.alpha > 2;
+    obtuse += is_obtuse(corners[0], corners[1], corners[2]);
   }
   check_histogram(file, alpha, summary);
   check_ratio(file, "alpha", std::move(alpha), summary);
@@ -122,6 +125,9 @@ void check_quality(const StoredFile& file, const Mesh& mesh, Report& report) {
     summary.note([&] { return fmt::format("shortest_edge: expected {:.12g}", shortest); }); // absent in older files
   if (file.number("/trime_mpi/quality", "bad_triangles").value_or(-1) != static_cast<double>(bad))
     summary.note([&] { return fmt::format("bad_triangles: expected {}", bad); });
+  if (file.number("/trime_mpi/quality", "obtuse_triangles").value_or(static_cast<double>(obtuse)) !=
+      static_cast<double>(obtuse)) // absent in older files
+    summary.note([&] { return fmt::format("obtuse_triangles: expected {}", obtuse); });
   report.none("alpha", alpha_wrong, "triangles whose `alpha` is not R/(2r)");
   report.none("beta", beta_wrong, "triangles whose `beta` is not the longest over the shortest edge");
   report.none("quality", summary, "numbers in /trime_mpi/quality that are not those of the triangles");

@@ -40,16 +40,22 @@ bool is_surely_good(const mesh::BinnedPoints& points, LocalIndex site, const Fan
   return good;
 }
 
-/// The largest alpha in the fan of a site if that is bad and finite, else 0. @pre the fan is complete
-double worst_alpha(const mesh::BinnedPoints& points, LocalIndex site, const Fan& fan) {
-  if (is_surely_good(points, site, fan))
-    return 0;
+/// A site with the largest alpha in its fan if that is bad and finite, else 0. @pre the fan is complete
+Candidate candidate_at(const SiteState& state, LocalIndex site, const Fan& fan) {
+  const mesh::BinnedPoints& points = state.points();
   const Vec2 p = points.position(site);
-  double worst = 0;
-  for (std::size_t k = 0; k < fan.triangles; ++k)
-    worst = std::max(worst,
-                     mesh::aspect_ratio(p, points.position(fan.neighbour(k)), points.position(fan.neighbour(k + 1))));
-  return worst > CleanupRules::bad_alpha && std::isfinite(worst) ? worst : 0;
+  Candidate candidate{p, state.sizes()[site]};
+  if (is_surely_good(points, site, fan))
+    return candidate;
+  for (std::size_t k = 0; k < fan.triangles; ++k) {
+    const Vec2 q = points.position(fan.neighbour(k)), r = points.position(fan.neighbour(k + 1));
+    const double alpha = mesh::aspect_ratio(p, q, r);
+    candidate.alpha = std::max(candidate.alpha, alpha);
+    candidate.obtuse = candidate.obtuse || (alpha > mesh::least_obtuse_alpha && mesh::is_obtuse(p, q, r));
+  }
+  if (!(candidate.alpha > CleanupRules::bad_alpha && std::isfinite(candidate.alpha)))
+    candidate.alpha = 0;
+  return candidate;
 }
 
 /// Finds the bad triangles of the owned sites, by stars that are computed here. Collective.
@@ -65,8 +71,8 @@ std::vector<Candidate> find_candidates(Stage& stage, const geometry::Lattice& la
                                       const Fan fan = inside_fan(view, i);
                                       if (!state.stars().certain(i) || !fan.complete)
                                         return;
-                                      if (const double alpha = worst_alpha(points, i, fan); alpha > 0)
-                                        list.push_back({points.position(i), state.sizes()[i], alpha});
+                                      if (const Candidate candidate = candidate_at(state, i, fan); candidate.alpha > 0)
+                                        list.push_back(candidate);
                                     });
 }
 
@@ -75,7 +81,7 @@ std::vector<Candidate> find_candidates(Stage& stage, const geometry::Lattice& la
 CleanupCounts mend(Stage& stage, const geometry::Boundary& meshed, const geometry::Lattice& lattice,
                    const delaunay::StarBuilder& builder, const CleanupOptions& options) {
   CleanupRounds rounds(stage, meshed, lattice, options, find_candidates(stage, lattice, builder));
-  for (int k = 1; k <= CleanupRules::stages; ++k)
+  for (int k = 1; k <= CleanupRules::stages + CleanupRules::obtuse_stages; ++k)
     rounds.run_stage(k);
   const CleanupCounts all = rounds.counts();
   if (all.better > 0)

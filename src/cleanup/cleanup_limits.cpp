@@ -67,6 +67,7 @@ void CleanupCandidates::give_up(Vec2 place, int stage) {
   if (const auto known = entry_at_.find(hash_of(place, 0));
       known != entry_at_.end() && entries_[known->second].candidate.alpha > 0) {
     entries_[known->second].candidate.alpha = CleanupRules::bad_alpha;
+    entries_[known->second].candidate.obtuse = false;
     entries_[known->second].settled = stage;
   }
 }
@@ -94,7 +95,7 @@ std::vector<Contender> CleanupCandidates::contenders(const ContenderRule& rule) 
   std::unordered_map<std::uint64_t, const Candidate*> worst;
   for (const Entry& entry : entries_) {
     const Candidate& own = entry.candidate;
-    if (!(own.alpha > rule.above) || entry.settled >= rule.stage ||
+    if (!(own.alpha > rule.above) || (rule.only_obtuse && !own.obtuse) || entry.settled >= rule.stage ||
         !(rule.separation * own.size < rule.most_separation))
       continue;
     const auto [known, is_new] = worst.try_emplace(entry.cell, &own);
@@ -155,7 +156,7 @@ CleanupLimits::CleanupLimits(GlobalId sites, GlobalId most_points) : wanted_site
 /// For more sites. Some are kept for places where nothing but smaller triangles helps.
 GlobalId CleanupLimits::room(int stage) const {
   const GlobalId reserve =
-      stage == Rules::stages ? 0 : 1 + static_cast<GlobalId>(Rules::reserved * static_cast<double>(most_points_));
+      stage >= Rules::stages ? 0 : 1 + static_cast<GlobalId>(Rules::reserved * static_cast<double>(most_points_));
   return most_points_ - sites_ - reserve;
 }
 
@@ -170,6 +171,8 @@ PatchBudget CleanupLimits::budget(int stage, double again_alpha) const {
   budget.may_delete = share(sites_ - least_sites_);
   budget.is_again = stage > 1;
   budget.again_alpha = again_alpha;
+  if (stage > Rules::stages)
+    budget.obtuse_weight = Rules::obtuse_weight[at(stage - Rules::stages - 1)];
   budget.deletion_handicap = crowded ? Rules::handicap_if_crowded : scarce ? Rules::handicap_if_scarce : 1;
   return budget;
 }

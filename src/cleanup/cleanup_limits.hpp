@@ -20,6 +20,7 @@ struct Candidate {
   geometry::Vec2 place; ///< canonical
   double size = 0;      ///< h
   double alpha = 0;     ///< alpha of its worst triangle
+  bool obtuse = false;  ///< whether one of its triangles is obtuse
 };
 
 /// Returns a hash of a place, the same on any number of ranks.
@@ -48,11 +49,12 @@ public:
 
   /// Which candidates may contend in a round.
   struct ContenderRule {
-    int stage;              ///< places that were settled in this stage or a later one are left out
-    double above;           ///< candidates have an alpha above this
-    double separation;      ///< [h] see Contender
-    double most_separation; ///< largest separation in domain units; candidates that need more are left out
-    int round;              ///< each round has a different order
+    int stage;                ///< places that were settled in this stage or a later one are left out
+    double above;             ///< candidates have an alpha above this
+    double separation;        ///< [h] see Contender
+    double most_separation;   ///< largest separation in domain units; candidates that need more are left out
+    int round;                ///< each round has a different order
+    bool only_obtuse = false; ///< only candidates with an obtuse triangle contend
   };
   /// @brief Returns the worst candidate of each cell of a few h, and the first place of equally bad ones; sorted by
   /// place. O(candidates).

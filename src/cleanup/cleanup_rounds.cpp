@@ -81,8 +81,9 @@ double CleanupRounds::find_again_alpha() const {
 std::vector<Contender> CleanupRounds::list_contenders() {
   const double shorter_period =
       std::min(periods_.x > 0 ? periods_.x : INFINITY, periods_.y > 0 ? periods_.y : INFINITY);
-  return candidates_.contenders(
-      {stage_, stage_ == 1 ? 0 : again_alpha_, separation, largest_share_of_period * shorter_period, round_});
+  const bool only_obtuse = stage_ > Rules::stages;
+  return candidates_.contenders({stage_, stage_ == 1 || only_obtuse ? 0 : again_alpha_, separation,
+                                 largest_share_of_period * shorter_period, round_, only_obtuse});
 }
 
 /// The owners of all tiles to which contenders reach, and others that may contend later.
@@ -274,7 +275,7 @@ void CleanupRounds::take(const News& news) {
       candidates_.drop(verdict.position);
       continue;
     }
-    candidates_.set({verdict.position, verdict.size, verdict.alpha}); // it has not moved
+    candidates_.set({verdict.position, verdict.size, verdict.alpha, verdict.obtuse != 0}); // it has not moved
     if (verdict.rests)
       candidates_.settle(verdict.position, stage_);
   }

@@ -52,6 +52,10 @@ bool Patch::is_surely_below(double limit, const Corners& corners) const {
   return mesh::is_surely_below(limit, mesh.position(corners[0]), mesh.position(corners[1]), mesh.position(corners[2]));
 }
 
+bool Patch::is_obtuse(const Corners& corners) const {
+  return mesh::is_obtuse(mesh.position(corners[0]), mesh.position(corners[1]), mesh.position(corners[2]));
+}
+
 /// A triangle with a vertex inside lies inside. For others a chord among the edges decides on which side they lie;
 /// without one, the neighbours decide, and their neighbours.
 bool Patch::lies_inside(const PatchMesh::Triangle& triangle) const {

@@ -40,11 +40,20 @@ struct BoundaryVertex {
 /// A measure of triangles: the sum of (alpha - 1)^2, in which bad triangles have more weight, and the largest alpha.
 struct AlphaScore {
   double sum = 0, max = 1;
+  double obtuse = 0; ///< the part of the sum that obtuse triangles add, if they count
 
   void add(double alpha, double bad_alpha) {
     const double excess = alpha - 1, bad = std::max(0.0, alpha - bad_alpha);
     sum += excess * excess + CleanupRules::bad_weight * bad * bad;
     max = std::max(max, alpha);
+  }
+  /// Adds what a triangle costs if it is obtuse. @param cotangent of its largest angle
+  void add_angle(double cotangent, double weight) {
+    if (cotangent >= CleanupRules::obtuse_cotangent)
+      return;
+    const double cost = weight * (1 + CleanupRules::obtuse_slope * (CleanupRules::obtuse_cotangent - cotangent));
+    obtuse += cost;
+    sum += cost;
   }
 };
 
@@ -102,6 +111,15 @@ struct Patch {
     const double twice_area = geometry::cross(u, v);
     return twice_area == 0 ? INFINITY : std::max(1.0, a * b * c * (a + b + c) / (4 * twice_area * twice_area));
   }
+  /// Returns the cotangent of the largest angle: negative if the triangle is obtuse. Rounded.
+  double least_cotangent(const Corners& corners) const {
+    const geometry::Vec2 p = mesh.position(corners[0]), u = mesh.position(corners[1]) - p,
+                         v = mesh.position(corners[2]) - p;
+    const double uu = geometry::dot(u, u), vv = geometry::dot(v, v), uv = geometry::dot(u, v);
+    return std::min(uv, std::min(uu - uv, vv - uv)) / geometry::cross(u, v);
+  }
+  /// Returns whether the triangle is obtuse. Exact.
+  bool is_obtuse(const Corners& corners) const;
   geometry::Vec2 middle_of(const Corners& corners) const {
     return (1.0 / 3) * (mesh.position(corners[0]) + mesh.position(corners[1]) + mesh.position(corners[2]));
   }

@@ -14,6 +14,8 @@ using Rules = CleanupRules;
 constexpr int refine_sweeps = 20;
 // [sweeps] Near the middle, of moves alone, which operations that come first have to beat.
 constexpr int first_sweeps = 2;
+// [alpha] Triangles below it have no angle that counts as obtuse.
+constexpr double least_steep_alpha = 1.2;
 constexpr std::size_t few_runners = 3; // [operations] That go beyond the first sweep in other trials
 
 /// Returns the squared difference of the degree of an inner vertex from 6.
@@ -37,10 +39,11 @@ void PatchScore::list_near(const Patch& now, const BadPlace& place) {
     if (now.is_gone(v))
       continue;
     const double squared = geometry::squared_length(now.mesh.position(v) - place.middle);
-    if (!is_within(squared, CleanupRules::score_reach))
+    if (!is_within(squared, obtuse_weight_ > 0 ? Rules::score_reach_if_obtuse : Rules::score_reach))
       continue;
     in_score_[at(v)] = now.role[at(v)] >= VertexRole::scored;
-    if (now.role[at(v)] != VertexRole::free || !is_within(squared, CleanupRules::near_reach))
+    if (now.role[at(v)] != VertexRole::free ||
+        !is_within(squared, obtuse_weight_ > 0 ? Rules::near_reach_if_obtuse : Rules::near_reach))
       continue;
     near_.push_back(v);
     if (is_within(squared, CleanupRules::nearest_reach))
@@ -48,7 +51,15 @@ void PatchScore::list_near(const Patch& now, const BadPlace& place) {
   }
 }
 
-AlphaScore PatchScore::begin(Patch& now, const BadPlace& place) {
+void PatchScore::add(AlphaScore& score, const Patch& patch, const Corners& corners) const {
+  const double alpha = patch.alpha(corners);
+  score.add(alpha, bad_alpha_);
+  if (obtuse_weight_ > 0 && alpha > least_steep_alpha)
+    score.add_angle(patch.least_cotangent(corners), obtuse_weight_);
+}
+
+AlphaScore PatchScore::begin(Patch& now, const BadPlace& place, double obtuse_weight) {
+  obtuse_weight_ = obtuse_weight;
   list_near(now, place);
   const std::span<const PatchMesh::Triangle> triangles = now.mesh.triangles();
   terms_.clear();
@@ -60,11 +71,12 @@ AlphaScore PatchScore::begin(Patch& now, const BadPlace& place) {
       continue;
     AlphaScore own;
     if (now.counts(triangles[t]))
-      own.add(now.alpha(vertex), bad_alpha_);
+      add(own, now, vertex);
     terms_.push_back({vertex, static_cast<LocalIndex>(t), own.sum});
     has_term_[t] = 1;
     all.sum += own.sum;
     all.max = std::max(all.max, own.max);
+    all.obtuse += own.obtuse;
   }
   now.mesh.forget_changes();
   return all;
@@ -114,7 +126,7 @@ double PatchScore::sum(const Patch& now, const Patch& trial) {
   for (const LocalIndex t : changed_) {
     const PatchMesh::Triangle& triangle = trial.mesh.triangles()[at(t)];
     if (triangle.vertex[0] >= 0 && is_near(triangle.vertex) && trial.counts(triangle))
-      changed.add(trial.alpha(triangle.vertex), bad_alpha_);
+      add(changed, trial, triangle.vertex);
   }
   return unchanged + changed.sum;
 }
@@ -123,7 +135,7 @@ AlphaScore PatchScore::score(const Patch& trial) const {
   AlphaScore score;
   for (const PatchMesh::Triangle& triangle : trial.mesh.triangles())
     if (triangle.vertex[0] >= 0 && is_near(triangle.vertex) && trial.counts(triangle))
-      score.add(trial.alpha(triangle.vertex), bad_alpha_);
+      add(score, trial, triangle.vertex);
   return score;
 }
 
@@ -142,20 +154,26 @@ BadPlace PatchContest::place_of(const Patch& now, const Corners& worst) const {
 bool PatchContest::hold(Patch& now, const Corners& worst, const PatchBudget& budget, Turn turn) {
   const BadPlace place = place_of(now, worst);
   const bool is_first = turn == Turn::before_moves;
-  is_thorough_ = !is_first && place.alpha > (budget.is_again ? budget.again_alpha : Rules::very_bad_alpha);
+  is_against_obtuse_ = budget.obtuse_weight > 0;
+  is_thorough_ =
+      is_against_obtuse_ || (!is_first && place.alpha > (budget.is_again ? budget.again_alpha : Rules::very_bad_alpha));
   mover_.set_thorough(is_thorough_);
+  mover_.set_against_obtuse(is_against_obtuse_);
   chords_.allow(place.alpha >= Rules::bend_alpha ? Rules::bent_at_last : Rules::bent_at_first);
-  const AlphaScore before = score_.begin(now, place);
-  if (!is_first && !is_worth(now, place, before.max, budget))
+  const AlphaScore before = score_.begin(now, place, budget.obtuse_weight);
+  if (!is_first && !is_against_obtuse_ && !is_worth(now, place, before.max, budget))
     return false;
   const double first = (1 - Rules::least_gain) * before.sum;
-  Bar bar{first, first, before.max, before.max};
+  const double most = is_against_obtuse_ ? std::max(before.max, Rules::alpha_for_obtuse) : before.max;
+  Bar bar{first, first, most, most, before.obtuse};
   if (is_first && !set_bar_by_moves(now, bar))
     return false;
   operations_.list(now, place, is_thorough_);
+  if (is_against_obtuse_)
+    operations_.list_against_obtuse(now, place);
   try_operations(now, place, budget, bar);
   const double least_bad = budget.is_again ? Rules::refine_alpha : Rules::refine_alpha_at_first;
-  if (!is_first && std::fmin(place.alpha, bar.largest) > least_bad && !operations_.all().empty())
+  if (!is_first && !is_against_obtuse_ && std::fmin(place.alpha, bar.largest) > least_bad && !operations_.all().empty())
     try_refining(now, place, budget, bar);
   if (bar.found)
     std::swap(now, best_);
@@ -227,7 +245,7 @@ void PatchContest::enter(std::span<Runner> list, Patch& trial, double sum, doubl
 /// @return the sum after the other sweeps, infinite if the trial was given up
 double PatchContest::last_sweeps(const Patch& now, const Runner& finalist, Patch& trial, double hopeless_sum) {
   double last = INFINITY;
-  const int sweeps = (is_thorough_ ? 2 : 1) * Rules::trial_sweeps;
+  const int sweeps = is_against_obtuse_ ? Rules::obtuse_sweeps : (is_thorough_ ? 2 : 1) * Rules::trial_sweeps;
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     relax_near(now, trial, score_.near());
     if (trial.broken)
@@ -249,7 +267,7 @@ void PatchContest::finish(const Patch& now, Runner& finalist, Bar& bar) {
   const AlphaScore after = score_.score(trial);
   const double sum = std::fmax(finalist.handicap, 1) * after.sum; // a preference makes nothing better that is not
   if (!(finalist.handicap * after.sum < bar.least) || !(sum < bar.first) || after.max > bar.before ||
-      !chords_.hold(trial))
+      (bar.obtuse > 0 && !(after.obtuse < bar.obtuse)) || !chords_.hold(trial))
     return;
   bar.least = finalist.handicap * after.sum;
   bar.largest = after.max;

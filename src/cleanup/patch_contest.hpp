@@ -18,8 +18,9 @@ public:
   explicit PatchScore(double bad_alpha) : bad_alpha_(bad_alpha) {}
 
   /// @brief Makes the triangles near this place count, and this patch the one with which trials are compared.
+  /// @param obtuse_weight see PatchBudget
   /// @return the score of the patch, whose list of changed triangles is emptied
-  AlphaScore begin(Patch& now, const BadPlace& place);
+  AlphaScore begin(Patch& now, const BadPlace& place, double obtuse_weight);
 
   /// Vertices that may move in the last sweeps of a trial, and vertices that may move in the first.
   std::span<const LocalIndex> near() const { return near_; }
@@ -41,11 +42,12 @@ private:
     const auto counts = [&](LocalIndex v) { return at(v) >= in_score_.size() || in_score_[at(v)]; };
     return counts(corners[0]) || counts(corners[1]) || counts(corners[2]);
   }
+  void add(AlphaScore& score, const Patch& patch, const Corners& corners) const;
   void mark_moved(const Patch& now, const Patch& trial);
   double sum_of_unchanged(const Patch& trial);
   void list_changed(const Patch& trial);
 
-  double bad_alpha_;
+  double bad_alpha_, obtuse_weight_ = 0;
   std::vector<LocalIndex> near_, nearest_;
   std::vector<std::uint8_t> in_score_; // whether its triangles count, by vertex of the patch
   std::vector<Term> terms_;
@@ -84,6 +86,7 @@ private:
     double least;   // the sum must be below this since the best trial
     double before;  // largest alpha at the beginning
     double largest; // largest alpha since the best trial
+    double obtuse;  // what obtuse triangles add to the sum at the beginning
     bool found = false;
   };
   BadPlace place_of(const Patch& now, const Corners& worst) const;
@@ -110,7 +113,8 @@ private:
   Patch trial_, best_;
   std::vector<Runner> runners_, finalists_; // ordered by sum
   bool is_thorough_ = false;                // true if the triangle is bad enough for many complete trials
-  std::vector<LocalIndex> ring_, touched_;  // vertices: work space
+  bool is_against_obtuse_ = false;
+  std::vector<LocalIndex> ring_, touched_; // vertices: work space
 };
 
 } // namespace trime::cleanup

@@ -58,6 +58,7 @@ struct SiteVerdict {
   double size;             ///< h
   double alpha;            ///< alpha of its worst triangle if that is bad, otherwise 0
   std::int64_t rests;      ///< nothing helped for its bad triangles, and it has not moved much since
+  std::int64_t obtuse = 0; ///< 1 if one of its triangles is obtuse
 };
 
 /// The result of trying a patch.
@@ -83,7 +84,8 @@ struct PatchBudget {
   bool is_again = false;     ///< whether the patch has been tried before
   double again_alpha =
       CleanupRules::again_alpha; ///< in that case, operations are tried for triangles with a larger alpha
-  double deletion_handicap = 1;  ///< factor on the sum of a trial with fewer sites: above 1 if sites are scarce
+  double obtuse_weight = 0; ///< above 0: only obtuse triangles are tried, and this is what each of them costs in a sum
+  double deletion_handicap = 1; ///< factor on the sum of a trial with fewer sites: above 1 if sites are scarce
 };
 
 } // namespace trime::cleanup

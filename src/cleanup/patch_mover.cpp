@@ -136,6 +136,50 @@ EnergyModel star_energy_model(Vec2 p, std::span<const Vec2> ring, bool closed) {
   return model;
 }
 
+namespace {
+
+/// Calls visit(cotangent, gradient) for each steep angle of the triangles (p, ring[k], ring[k+1]); the gradient is with
+/// respect to p.
+void for_each_steep(Vec2 p, std::span<const Vec2> ring, bool closed, const auto& visit) {
+  Vec2 u = (closed ? ring.back() : ring.front()) - p;
+  for (std::size_t k = !closed; k < ring.size(); ++k) {
+    const Vec2 v = ring[k] - p;
+    const double inverse = 1 / geometry::cross(u, v), uv = geometry::dot(u, v);
+    const Vec2 of_area = inverse * Vec2{u.y - v.y, v.x - u.x}; // relative to the area
+    const auto visit_angle = [&](double product, Vec2 of_product) {
+      const double cotangent = inverse * product;
+      if (cotangent < CleanupRules::steep_cotangent)
+        visit(cotangent, inverse * of_product - cotangent * of_area);
+    };
+    visit_angle(uv, -1.0 * (u + v));
+    visit_angle(geometry::squared_length(u) - uv, v - u);
+    visit_angle(geometry::squared_length(v) - uv, u - v);
+    u = v;
+  }
+}
+
+} // namespace
+
+double steep_energy(Vec2 p, std::span<const Vec2> ring, bool closed) {
+  double sum = 0;
+  for_each_steep(p, ring, closed, [&](double cotangent, Vec2) {
+    const double lack = CleanupRules::steep_cotangent - cotangent;
+    sum += CleanupRules::steep_weight * lack * lack;
+  });
+  return sum;
+}
+
+void add_steep_energy(EnergyModel& model, Vec2 p, std::span<const Vec2> ring, bool closed) {
+  for_each_steep(p, ring, closed, [&](double cotangent, Vec2 gradient) {
+    const double lack = CleanupRules::steep_cotangent - cotangent, twice = 2 * CleanupRules::steep_weight;
+    model.value += CleanupRules::steep_weight * lack * lack;
+    model.gradient = model.gradient - (twice * lack) * gradient;
+    model.xx += twice * gradient.x * gradient.x;
+    model.xy += twice * gradient.x * gradient.y;
+    model.yy += twice * gradient.y * gradient.y;
+  });
+}
+
 Vec2 newton_step(const EnergyModel& model, double limit) {
   const double determinant = model.xx * model.yy - model.xy * model.xy;
   Vec2 step;
@@ -178,13 +222,27 @@ bool PatchMover::load_ring(const Patch& patch, LocalIndex v) {
   return true;
 }
 
+/// The energy of the star whose ring has been loaded.
+EnergyModel PatchMover::model_at(Vec2 p, bool closed) const {
+  EnergyModel model = star_energy_model(p, around_, closed);
+  if (is_against_obtuse_)
+    add_steep_energy(model, p, around_, closed);
+  return model;
+}
+
+/// Is the energy below the limit?
+bool PatchMover::is_better(Vec2 p, bool closed, double limit) const {
+  const double energy = star_energy(p, around_, closed, limit);
+  return energy < limit && (!is_against_obtuse_ || energy + steep_energy(p, around_, closed) < limit);
+}
+
 /// @return whether the vertex has been shifted; then PatchMesh::restore must follow
 bool PatchMover::relax_inside(Patch& patch, LocalIndex v) {
   if (!load_ring(patch, v))
     return false;
   const Vec2 from = patch.mesh.position(v);
   const double h = patch.size[at(v)];
-  const EnergyModel model = star_energy_model(from, around_, true);
+  const EnergyModel model = model_at(from, true);
   if (model.value < Rules::rest_energy)
     return false;
   const bool is_flat = !(model.value < flat_energy);
@@ -193,7 +251,7 @@ bool PatchMover::relax_inside(Patch& patch, LocalIndex v) {
     if (geometry::squared_length(step) < Rules::shortest_move * Rules::shortest_move * h * h)
       return false;
     const Vec2 to = start_.lattice().snap(from + step);
-    if (!(star_energy(to, around_, true, model.value) < model.value) || !keeps_clear(patch, to))
+    if (!is_better(to, true, model.value) || !keeps_clear(patch, to))
       continue;
     if (is_flat) { // the signs of the areas are not certain
       patch.mesh.move(v, to);
@@ -243,7 +301,7 @@ void PatchMover::slide(Patch& patch, LocalIndex v) {
   BoundaryVertex& own = patch.boundary[at(v)];
   const Vec2 from = patch.mesh.position(v);
   const double h = patch.size[at(v)];
-  const EnergyModel model = star_energy_model(from, around_, false);
+  const EnergyModel model = model_at(from, false);
   if (model.value < Rules::rest_energy)
     return;
   const BoundaryCurve& curve = start_.curve();
@@ -260,7 +318,7 @@ void PatchMover::slide(Patch& patch, LocalIndex v) {
     const Vec2 to = start_.periods().nearest_image(start_.lattice().snap(curve.place(own.loop, arc).point), from);
     BoundaryVertex moved = own;
     moved.arc = arc >= length ? arc - length : arc < 0 ? arc + length : arc;
-    if (!(star_energy(to, around_, false, model.value) < model.value) || !may_slide(patch, v, moved, to))
+    if (!is_better(to, false, model.value) || !may_slide(patch, v, moved, to))
       continue;
     if (!patch.mesh.move(v, to) && !patch.mesh.replace(v, to)) {
       patch.broken = true;

@@ -67,6 +67,13 @@ struct EnergyModel {
 };
 EnergyModel star_energy_model(geometry::Vec2 p, std::span<const geometry::Vec2> ring, bool closed);
 
+/// @brief Returns the sum of w t^2 over the angles of the same triangles, where t is by how much the cotangent is below
+/// CleanupRules::steep_cotangent, and w = CleanupRules::steep_weight. Angles far below 90 degrees cost nothing. @pre no
+/// triangle is inverted or flat
+double steep_energy(geometry::Vec2 p, std::span<const geometry::Vec2> ring, bool closed);
+/// Adds this energy and its gradient to a model, and the convex part of its second derivatives.
+void add_steep_energy(EnergyModel& model, geometry::Vec2 p, std::span<const geometry::Vec2> ring, bool closed);
+
 /// Returns the Newton step if the model is convex, otherwise a step against the gradient; at most `limit` long.
 geometry::Vec2 newton_step(const EnergyModel& model, double limit);
 
@@ -79,12 +86,16 @@ public:
 
   /// Makes moves thorough: then steps along the boundary are halved more often.
   void set_thorough(bool is_thorough) { is_thorough_ = is_thorough; }
+  /// Makes angles near 90 degrees and above cost energy.
+  void set_against_obtuse(bool is_against) { is_against_obtuse_ = is_against; }
 
   /// Makes one sweep over the free vertices of a list: first over those inside, without flips, then over those on the
   /// boundary.
   void relax(Patch& patch, std::span<const LocalIndex> vertices);
 
 private:
+  EnergyModel model_at(geometry::Vec2 p, bool closed) const;
+  bool is_better(geometry::Vec2 p, bool closed, double limit) const;
   bool relax_inside(Patch& patch, LocalIndex v);
   void slide(Patch& patch, LocalIndex v);
   bool load_ring(const Patch& patch, LocalIndex v);
@@ -95,7 +106,7 @@ private:
 
   const PatchStart& start_;
   const PatchChords& chords_;
-  bool is_thorough_ = false;
+  bool is_thorough_ = false, is_against_obtuse_ = false;
   std::vector<LocalIndex> ring_, shifted_; // work space
   std::vector<geometry::Vec2> around_;     // positions of the ring
 };

@@ -214,6 +214,30 @@ void PatchOperations::list(const Patch& now, const BadPlace& place, bool is_thor
     list_around(now, place.corners, v, is_thorough);
 }
 
+void PatchOperations::list_against_obtuse(const Patch& now, const BadPlace& place) {
+  all_.insert(all_.begin(), PatchOperation{});
+  for (std::size_t k = 0; k < 3; ++k)
+    add_insertion(0.5 * (now.mesh.position(place.corners[k]) + now.mesh.position(place.corners[(k + 1) % 3])));
+  for (std::size_t k = 0; k < 3; ++k) {
+    const LocalIndex v = place.corners[k], next = place.corners[(k + 1) % 3], previous = place.corners[(k + 2) % 3];
+    if (!now.is_chord(v, next) || !now.is_chord(previous, v))
+      continue;
+    // A corner with one triangle becomes one with two, whose common edge is as long as the chords.
+    const Vec2 p = now.mesh.position(v), u = now.mesh.position(next) - p, w = now.mesh.position(previous) - p;
+    const double a = geometry::length(u), b = geometry::length(w);
+    const Vec2 along = (1 / a) * u + (1 / b) * w;
+    const Vec2 inside = p + (0.5 * (a + b) / geometry::length(along)) * along;
+    add_insertion(inside);
+    for (const LocalIndex far : {next, previous})
+      if (is_free(now, far))
+        all_.push_back({.removed = {far, -1}, .inserted = inside});
+    if (const auto apexes = now.mesh.apexes(next, previous); apexes)
+      for (const LocalIndex far : {apexes->left, apexes->right})
+        if (far >= PatchMesh::frame && far != v && is_free(now, far))
+          all_.push_back({.removed = {far, -1}, .inserted = inside});
+  }
+}
+
 /// Insertions on the edges of a crowded vertex, and deletions of its neighbours.
 void PatchOperations::list_around(const Patch& now, const Corners& worst, LocalIndex v, bool is_thorough) {
   now.mesh.collect_ring(v, ring_);

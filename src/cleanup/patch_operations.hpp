@@ -69,6 +69,8 @@ public:
   /// @param is_thorough if true, lists the deletion of every neighbour, otherwise only of inner ones with few
   /// neighbours
   void list(const Patch& now, const BadPlace& place, bool is_thorough);
+  /// Adds operations against an obtuse triangle to the list: moves alone, and a site in the middle of each edge.
+  void list_against_obtuse(const Patch& now, const BadPlace& place);
   std::span<const PatchOperation> all() const { return all_; }
 
 private:

@@ -2,6 +2,7 @@
 #include "cleanup/patch_optimizer.hpp"
 
 #include "core/random.hpp"
+#include "trime/mesh/quality.hpp"
 
 #include <algorithm>
 
@@ -62,11 +63,17 @@ std::vector<BoundaryLink> PatchReport::links(const Patch& now, std::uint64_t pat
   return links;
 }
 
-void PatchReport::find_worst(const Patch& patch, double bad_alpha, std::vector<double>& worst) {
-  for (const PatchMesh::Triangle& triangle : patch.mesh.triangles())
-    if (patch.is_bad(triangle, bad_alpha))
-      for (const LocalIndex v : triangle.vertex)
-        worst[at(v)] = std::max(worst[at(v)], patch.alpha(triangle.vertex));
+void PatchReport::find_worst(const Patch& patch, double bad_alpha, std::vector<Badness>& worst) {
+  for (const PatchMesh::Triangle& triangle : patch.mesh.triangles()) {
+    if (!patch.is_bad(triangle, bad_alpha))
+      continue;
+    const double alpha = patch.alpha(triangle.vertex);
+    const bool obtuse = alpha > mesh::least_obtuse_alpha && patch.is_obtuse(triangle.vertex);
+    for (const LocalIndex v : triangle.vertex) {
+      worst[at(v)].alpha = std::max(worst[at(v)].alpha, alpha);
+      worst[at(v)].obtuse |= static_cast<std::int64_t>(obtuse);
+    }
+  }
 }
 
 bool PatchReport::is_news(const Patch& now, LocalIndex v) const {
@@ -74,15 +81,16 @@ bool PatchReport::is_news(const Patch& now, LocalIndex v) const {
 }
 
 std::vector<SiteVerdict> PatchReport::verdicts(const Patch& now, double bad_alpha) {
-  worst_before_.assign(at(now.mesh.vertices()), 0);
-  worst_after_.assign(at(now.mesh.vertices()), 0);
+  worst_before_.assign(at(now.mesh.vertices()), {});
+  worst_after_.assign(at(now.mesh.vertices()), {});
   find_worst(start_.patch(), bad_alpha, worst_before_);
   find_worst(now, bad_alpha, worst_after_);
   std::vector<SiteVerdict> verdicts;
   for (LocalIndex v = PatchMesh::frame; v < now.mesh.vertices(); ++v)
-    if (now.role[at(v)] >= VertexRole::scored && (worst_before_[at(v)] > 0 || worst_after_[at(v)] > 0) &&
+    if (now.role[at(v)] >= VertexRole::scored && (worst_before_[at(v)].alpha > 0 || worst_after_[at(v)].alpha > 0) &&
         is_news(now, v))
-      verdicts.push_back({now.mesh.position(v), now.size[at(v)], worst_after_[at(v)], rests_.rests(v)});
+      verdicts.push_back({now.mesh.position(v), now.size[at(v)], worst_after_[at(v)].alpha, rests_.rests(v),
+                          worst_after_[at(v)].obtuse});
   return verdicts;
 }
 
@@ -113,7 +121,7 @@ void PatchWorst::list(const Patch& now) {
     if (vertex[0] < 0 || !start_.is_in_core(now.middle_of(vertex)) || now.is_surely_below(above_, vertex) ||
         !now.counts(triangle))
       continue;
-    if (const double alpha = now.alpha(vertex); alpha > above_)
+    if (const double alpha = now.alpha(vertex); alpha > above_ && (!only_obtuse_ || now.is_obtuse(vertex)))
       bad_.push_back({largest_first(vertex), alpha});
   }
 }
@@ -124,10 +132,13 @@ PatchResult PatchOptimizer::improve(Vec2 center, double size, std::span<const Pa
     return give_up(sites);
   now_ = start_.patch();
   rests_.start(sites);
+  mover_.set_against_obtuse(false);
   if (!budget.is_again)
     operate_first(budget);
-  move_bad_sites();
-  rests_.wake_moved(start_.patch(), now_);
+  if (budget.obtuse_weight == 0) {
+    move_bad_sites();
+    rests_.wake_moved(start_.patch(), now_);
+  }
   operate(budget);
   let_failures_rest();
   return {report_.edits(now_, patch), report_.links(now_, patch), report_.verdicts(now_, options_.bad_alpha)};
@@ -157,7 +168,11 @@ void PatchOptimizer::operate_first(const PatchBudget& budget) {
 
 /// From the worst triangle on, each once, and as long as something helps.
 void PatchOptimizer::operate(const PatchBudget& budget) {
-  worst_.begin(budget.is_again ? budget.again_alpha : options_.operate_alpha);
+  const bool only_obtuse = budget.obtuse_weight > 0;
+  worst_.begin(only_obtuse       ? mesh::least_obtuse_alpha
+               : budget.is_again ? budget.again_alpha
+                                 : options_.operate_alpha,
+               only_obtuse);
   for (int k = 0; k < most_tried; ++k) {
     const std::optional<Corners> worst = worst_.next(now_);
     if (!worst)

@@ -25,7 +25,12 @@ public:
   std::vector<SiteVerdict> verdicts(const Patch& now, double bad_alpha);
 
 private:
-  static void find_worst(const Patch& patch, double bad_alpha, std::vector<double>& worst);
+  struct Badness {           // of a vertex
+    double alpha = 0;        // of its worst triangle if that is bad, otherwise 0
+    std::int64_t obtuse = 0; // 1 if one of its triangles is obtuse
+    friend bool operator==(const Badness&, const Badness&) = default;
+  };
+  static void find_worst(const Patch& patch, double bad_alpha, std::vector<Badness>& worst);
   bool is_news(const Patch& now, LocalIndex v) const;
   bool is_new(LocalIndex v) const { return v >= start_.vertices(); }
   BoundaryName site_before(const Patch& now, LocalIndex v) const;
@@ -33,7 +38,7 @@ private:
 
   const PatchStart& start_;
   const PatchRests& rests_;
-  std::vector<double> worst_before_, worst_after_; // by vertex: alpha of its worst triangle if that is bad, otherwise 0
+  std::vector<Badness> worst_before_, worst_after_; // by vertex
 };
 
 /// @brief Chooses the triangle of a patch that is improved next. Triangles are identified by their corners, beginning
@@ -44,8 +49,10 @@ public:
   PatchWorst(const PatchStart& start, const PatchRests& rests) : start_(start), rests_(rests) {}
 
   /// @brief Begins a list of triangles above a limit that have not been tried.
-  void begin(double above) {
+  /// @param only_obtuse whether the list has only obtuse triangles
+  void begin(double above, bool only_obtuse = false) {
     above_ = above;
+    only_obtuse_ = only_obtuse;
     tried_.clear();
     forget();
   }
@@ -69,6 +76,7 @@ private:
   const PatchStart& start_;
   const PatchRests& rests_;
   double above_ = 0; // alpha
+  bool only_obtuse_ = false;
   std::vector<Corners> tried_;
   std::vector<BadTriangle> bad_;
   bool is_listed_ = false;

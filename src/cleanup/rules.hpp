@@ -170,9 +170,34 @@ struct CleanupRules {
   /// [1] As excellent, in thorough trials.
   static constexpr double excellent_if_thorough = 0.6;
 
+  // --- obtuse triangles
+  // ----------------------------------------------------------------------------------------------
+  /// [cotangent] In the stages against obtuse triangles, angles with a smaller cotangent cost energy: from 86.6
+  /// degrees on, so that the sites come to rest below 90 degrees.
+  static constexpr double steep_cotangent = 0.06;
+  /// [1] The weight of the squared lack of cotangent in the energy of a star.
+  static constexpr double steep_weight = 6;
+  /// [cotangent] Angles with a smaller cotangent count as obtuse in the sum of a patch: from 89.97 degrees on, because
+  /// the sum is rounded.
+  static constexpr double obtuse_cotangent = 5e-4;
+  /// [1] What an obtuse triangle adds to the sum of a patch, by stage: as much as several bad triangles.
+  static constexpr std::array<double, 2> obtuse_weight = {0.5, 4};
+  /// [1] What it adds for each unit of cotangent below 0, in units of obtuse_weight.
+  static constexpr double obtuse_slope = 5;
+
+  /// [h] As near_reach and score_reach, in the stages against obtuse triangles: a row of triangles that is shifted
+  /// along the boundary needs a wide surrounding to adapt.
+  static constexpr double near_reach_if_obtuse = 4, score_reach_if_obtuse = 5.3;
+  /// [sweeps] Largest number of last sweeps of a trial in these stages.
+  static constexpr int obtuse_sweeps = 14;
+  /// [alpha] An operation that removes an obtuse triangle may leave other triangles up to this alpha.
+  static constexpr double alpha_for_obtuse = 1.28;
+
   // --- rounds, and the number of sites ------------------------------------------------------------------------------
   /// [stages] The first stage tries every bad place; the others try the worst places of the mesh again.
   static constexpr int stages = 3;
+  /// [stages] Stages that follow for obtuse triangles only. A mesh without such triangles stays as it is.
+  static constexpr int obtuse_stages = 2;
   /// [rounds] Largest number of rounds of a stage. No measured case reaches this bound.
   static constexpr int most_rounds = 250;
   /// [passes] Number of passes that choose the patches of a round. Measured: fewer than 5 of 600 places are left out

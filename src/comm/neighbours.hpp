@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: BSD-3-Clause Exchanges messages between ranks that communicate repeatedly. Such an exchange
+// SPDX-License-Identifier: BSD-3-Clause
+// Exchanges messages between ranks that communicate repeatedly. Such an exchange
 // needs no collective call, and no other rank waits.
 #pragma once
 

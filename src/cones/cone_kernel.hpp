@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: BSD-3-Clause The kernels of the size field: they find the nearest segment and the lowest
+// SPDX-License-Identifier: BSD-3-Clause
+// The kernels of the size field: they find the nearest segment and the lowest
 // cone in a hierarchy of boxes, and process the lists of cones in quadtree cells. The kernels are compiled once for
 // each SIMD level, with bit-identical results. They use plain arrays, because code for different processors must not
 // share any inline function.

@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: BSD-3-Clause Constants for angles and for the equilateral triangle; functions for the sine,
+// SPDX-License-Identifier: BSD-3-Clause
+// Constants for angles and for the equilateral triangle; functions for the sine,
 // the cosine and the angle of a vector. The functions use only + - * / and sqrt, so every compiler and C library gives
 // the same bits. The same bits are needed because points on circular arcs become coordinates of a mesh.
 #pragma once

@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: BSD-3-Clause Elementary functions with the same bits on every machine. These functions are
+// SPDX-License-Identifier: BSD-3-Clause
+// Elementary functions with the same bits on every machine. These functions are
 // needed because sizes and shapes given as formulas determine meshes, and the functions of C libraries differ in the
 // last bit between versions and processors.
 #pragma once

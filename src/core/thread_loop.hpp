@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: BSD-3-Clause The only functions of this program that use threads. One is a loop over items
+// SPDX-License-Identifier: BSD-3-Clause
+// The only functions of this program that use threads. One is a loop over items
 // in which each item writes to separate memory. Another makes a list with several threads, in the order of a single
 // thread. The body of a loop must not call MPI. The body should not throw; if it does (for lack of memory), one
 // exception leaves the loop.

@@ -24,7 +24,8 @@ using mesh::RatioTotals;
 struct FirstSums {
   std::array<std::int64_t, RatioStatistics::packed_size> alpha, beta;
   FixedSum::Parts ratio, squared_ratio;
-  std::int64_t edges, bad;
+  std::int64_t edges;
+  BadTriangles::Counts bad;
 };
 constexpr std::size_t first_words = sizeof(FirstSums) / sizeof(std::int64_t);
 
@@ -110,8 +111,11 @@ SharpCorners::Corner SharpCorners::near(Vec2 p, Vec2 q, Vec2 r) const {
 }
 
 void BadTriangles::add(const BadTriangle& triangle) {
-  ++count_;
-  if (triangle.corner_degrees == 0 && (away_.alpha == 0 || is_worse(triangle, away_)))
+  const bool is_bad = triangle.alpha > ExtractionRules::listed_alpha, is_excused = triangle.corner_degrees > 0;
+  counts_.bad += is_bad;
+  counts_.obtuse += triangle.obtuse;
+  counts_.obtuse_at_corners += is_excused ? triangle.obtuse : 0;
+  if (is_bad && !is_excused && (away_.alpha == 0 || is_worse(triangle, away_)))
     away_ = triangle;
   if (worst_.size() == ExtractionRules::most_listed) {
     if (!is_worse(triangle, worst_.back()))
@@ -122,16 +126,17 @@ void BadTriangles::add(const BadTriangle& triangle) {
 }
 
 void BadTriangles::merge(const BadTriangles& other) {
-  const std::int64_t count = count_ + other.count_;
+  const Counts sums{counts_.bad + other.counts_.bad, counts_.obtuse + other.counts_.obtuse,
+                    counts_.obtuse_at_corners + other.counts_.obtuse_at_corners};
   for (const BadTriangle& triangle : other.worst_)
     add(triangle);
   if (other.away_.alpha > 0 && (away_.alpha == 0 || is_worse(other.away_, away_)))
     away_ = other.away_;
-  count_ = count;
+  counts_ = sums;
 }
 
-void BadTriangles::gather(const comm::Communicator& comm, std::int64_t count) {
-  if (count == 0)
+void BadTriangles::gather(const comm::Communicator& comm, const Counts& counts) {
+  if (counts.bad == 0 && counts.obtuse == 0)
     return;
   std::vector<BadTriangle> sent = worst_;
   const bool is_listed = std::ranges::any_of(
@@ -141,11 +146,13 @@ void BadTriangles::gather(const comm::Communicator& comm, std::int64_t count) {
   *this = {};
   for (const BadTriangle& triangle : comm::from_bytes<BadTriangle>(comm.all_gather(comm::to_bytes<BadTriangle>(sent))))
     add(triangle);
-  count_ = count;
+  counts_ = counts;
 }
 
 void BadTriangles::tell(mesh::QualitySummary& quality) const {
-  quality.bad_triangles = count_;
+  quality.bad_triangles = counts_.bad;
+  quality.obtuse_triangles = counts_.obtuse;
+  quality.obtuse_at_corners = counts_.obtuse_at_corners;
   quality.worst_triangles = worst_;
   quality.worst_away = away_;
 }
@@ -217,18 +224,22 @@ void QualityMeter::measure_triangles() {
     for (std::size_t k = 0; k < n; ++k)
       if (alpha[k] == worst)
         sums_.note_worst(worst, periods_.wrap((1.0 / 3) * (p_[k] + q_[k] + r_[k])));
-  for (std::size_t k = 0; worst > ExtractionRules::listed_alpha && k < n; ++k)
-    if (alpha[k] > ExtractionRules::listed_alpha)
-      list(alpha[k], k);
+  for (std::size_t k = 0; worst > mesh::least_obtuse_alpha && k < n; ++k)
+    if (alpha[k] > mesh::least_obtuse_alpha)
+      list_if_bad(alpha[k], k);
   sums_.alpha.add(std::span(alpha).first(n));
   sums_.beta.add(std::span(beta).first(n));
   write_to(alpha_.subspan(n), beta_.subspan(n));
   triangles_ = 0;
 }
 
-void QualityMeter::list(double alpha, std::size_t k) {
+void QualityMeter::list_if_bad(double alpha, std::size_t k) {
+  const bool obtuse = mesh::is_obtuse(p_[k], q_[k], r_[k]);
+  if (!obtuse && !(alpha > ExtractionRules::listed_alpha))
+    return;
   const SharpCorners::Corner corner = corners_.near(p_[k], q_[k], r_[k]);
-  sums_.bad.add({alpha, periods_.wrap((1.0 / 3) * (p_[k] + q_[k] + r_[k])), corner.degrees, corner.place});
+  sums_.bad.add({alpha, periods_.wrap((1.0 / 3) * (p_[k] + q_[k] + r_[k])), corner.degrees, corner.place,
+                 mesh::max_angle_degrees(p_[k], q_[k], r_[k]), obtuse});
 }
 
 void QualityMeter::measure_edges() {
@@ -262,7 +273,7 @@ void QualityMeter::measure_edges() {
 
 mesh::QualitySummary summarize(const comm::Communicator& comm, QualitySums& sums) {
   const FirstSums mine{sums.alpha.pack(),          sums.beta.pack(), sums.ratio.split(),
-                       sums.squared_ratio.split(), sums.edges,       sums.bad.count()};
+                       sums.squared_ratio.split(), sums.edges,       sums.bad.counts()};
   auto words = std::bit_cast<std::array<std::int64_t, first_words>>(mine);
   std::array<double, 5> largest{sums.alpha.max(), sums.beta.max(), -sums.least_sine, sums.worst_alpha, -sums.shortest};
   comm.sum_and_max(words, largest);

@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: BSD-3-Clause Measures the quality of the finished mesh. Every triangle and every edge is
+// SPDX-License-Identifier: BSD-3-Clause
+// Measures the quality of the finished mesh. Every triangle and every edge is
 // counted once over all ranks. Triangles and edges are processed in blocks, so that the compiler can vectorise the
 // loops.
 #pragma once
@@ -35,23 +36,29 @@ private:
   std::vector<Corner> corners_; // in lexicographic order
 };
 
-/// Counts bad triangles and lists the worst, ordered by alpha and then by place. Objects may be merged in any order.
+/// Counts bad and obtuse triangles and lists the worst, ordered by alpha and then by place. Objects may be merged in
+/// any order.
 class BadTriangles {
 public:
-  /// Adds a bad triangle.
-  /// @pre its alpha is above ExtractionRules::listed_alpha
+  struct Counts {
+    std::int64_t bad = 0;               ///< number of triangles with an alpha above ExtractionRules::listed_alpha
+    std::int64_t obtuse = 0;            ///< number of triangles with an angle above 90 degrees
+    std::int64_t obtuse_at_corners = 0; ///< number of obtuse triangles with a sharp corner near them
+  };
+  /// Adds a bad or obtuse triangle.
+  /// @pre its alpha is above ExtractionRules::listed_alpha, or the triangle is obtuse
   void add(const mesh::BadTriangle& triangle);
   void merge(const BadTriangles& other);
-  /// Returns the number of bad triangles of this rank so far.
-  std::int64_t count() const { return count_; }
+  /// Returns the numbers of triangles of this rank so far.
+  const Counts& counts() const { return counts_; }
   /// @brief Merges the lists of all ranks into the same list on every rank. Collective.
-  /// @param count number of bad triangles over all ranks; if it is 0, nothing is sent
-  void gather(const comm::Communicator& comm, std::int64_t count);
-  /// Writes the count, the list, and the worst triangle away from sharp corners into the summary.
+  /// @param counts numbers over all ranks; if all are 0, nothing is sent
+  void gather(const comm::Communicator& comm, const Counts& counts);
+  /// Writes the counts, the list, and the worst triangle away from sharp corners into the summary.
   void tell(mesh::QualitySummary& quality) const;
 
 private:
-  std::int64_t count_ = 0;
+  Counts counts_;
   std::vector<mesh::BadTriangle> worst_; ///< sorted by alpha and place, at most ExtractionRules::most_listed
   mesh::BadTriangle away_;               ///< the worst triangle that is not near a sharp corner
 };
@@ -110,7 +117,7 @@ private:
     geometry::Vec2 operator[](std::size_t k) const { return {x[k], y[k]}; }
   };
   void measure_triangles();
-  void list(double alpha, std::size_t k);
+  void list_if_bad(double alpha, std::size_t k);
   void measure_edges();
 
   const sizing::SizeField& size_;

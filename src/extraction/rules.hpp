@@ -8,8 +8,8 @@ namespace trime::extraction {
 
 /// Numbers that decide which triangles are listed as bad, and for which of them a sharp corner is named as the reason.
 struct ExtractionRules {
-  /// [1] Triangles with a larger alpha are counted as bad, and the worst of them are listed. Such a triangle has an
-  /// angle below 22 degrees or above 98. Not measured.
+  /// [1] Triangles with a larger alpha are counted as bad, and the worst of them and of the obtuse ones are listed.
+  /// Such a triangle has an angle below 22 degrees or above 98. Not measured.
   static constexpr double listed_alpha = 2;
   /// [triangles] Largest number of listed triangles, so that the list fits into the report. Not measured.
   static constexpr std::size_t most_listed = 10;

@@ -143,6 +143,13 @@ mesh::QualitySummary quality_of(const io::Metadata& metadata) {
       for (const io::Attribute& attribute : group->attributes)
         if (attribute.name == name && std::holds_alternative<double>(attribute.value))
           *value = std::get<double>(attribute.value);
+  for (const auto& [name, value] : {std::pair{"bad_triangles", &quality.bad_triangles},
+                                    {"obtuse_triangles", &quality.obtuse_triangles},
+                                    {"obtuse_at_corners", &quality.obtuse_at_corners}})
+    if (group != nullptr)
+      for (const io::Attribute& attribute : group->attributes)
+        if (attribute.name == name && std::holds_alternative<std::int64_t>(attribute.value))
+          *value = std::get<std::int64_t>(attribute.value);
   return quality;
 }
 

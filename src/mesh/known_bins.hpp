@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: BSD-3-Clause Stores which sites lie in which bin. A rank knows all bins of the tiles that it
+// SPDX-License-Identifier: BSD-3-Clause
+// Stores which sites lie in which bin. A rank knows all bins of the tiles that it
 // owns, and some bins of other ranks' tiles.
 #pragma once
 

@@ -3,6 +3,7 @@
 
 #include "core/angle.hpp"
 #include "core/elementary.hpp"
+#include "geometry/predicates.hpp"
 
 #include <algorithm>
 #include <array>
@@ -74,6 +75,20 @@ double edge_ratio(Vec2 p, Vec2 q, Vec2 r) {
 
 double min_angle_degrees(Vec2 p, Vec2 q, Vec2 r) {
   return elementary::asin(std::min(1.0, measure_triangle(p, q, r).least_sine)) * degrees_per_radian;
+}
+
+bool is_obtuse(Vec2 p, Vec2 q, Vec2 r) {
+  using geometry::diametral_side;
+  return diametral_side(q, r, p) < 0 || diametral_side(r, p, q) < 0 || diametral_side(p, q, r) < 0;
+}
+
+double max_angle_degrees(Vec2 p, Vec2 q, Vec2 r) {
+  double largest = 0;
+  for (const auto& [at, from, to] : {std::array{p, q, r}, std::array{q, r, p}, std::array{r, p, q}}) {
+    const Vec2 u = from - at, v = to - at;
+    largest = std::max(largest, std::fabs(angle_of(geometry::cross(u, v), geometry::dot(u, v))));
+  }
+  return largest * degrees_per_radian;
 }
 
 RatioStatistics::RatioStatistics() : bins_(padded_bins, 0) {}

@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: BSD-3-Clause Finds out whether an inner site has left the polygon of boundary edges (chords)
+// SPDX-License-Identifier: BSD-3-Clause
+// Finds out whether an inner site has left the polygon of boundary edges (chords)
 // or entered the diametral circle of a chord, and to which place the site must be pushed. The guard does not move,
 // delete or count sites itself.
 #pragma once

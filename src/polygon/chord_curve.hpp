@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: BSD-3-Clause Compares the curve of the shape between two consecutive boundary sites with the
+// SPDX-License-Identifier: BSD-3-Clause
+// Compares the curve of the shape between two consecutive boundary sites with the
 // straight chord that replaces the curve in the mesh. The comparison uses only the boundary and its sites, but no
 // results of the code that placed the sites.
 #pragma once

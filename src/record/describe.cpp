@@ -154,6 +154,8 @@ io::MetadataGroup quality_group(const mesh::QualitySummary& quality) {
   group.attributes.push_back({"size_mean", quality.size_mean});
   group.attributes.push_back({"size_std", quality.size_std});
   group.attributes.push_back({"bad_triangles", quality.bad_triangles});
+  group.attributes.push_back({"obtuse_triangles", quality.obtuse_triangles});
+  group.attributes.push_back({"obtuse_at_corners", quality.obtuse_at_corners});
   const auto& edges = mesh::RatioStatistics::histogram_edges;
   const auto& counts = quality.alpha_histogram;
   group.columns.push_back({"alpha_histogram_from", std::vector<double>(edges.begin(), edges.end())});
@@ -169,6 +171,8 @@ io::MetadataGroup bad_triangles_group(const mesh::QualitySummary& quality) {
           {column<double>("alpha", worst, &BadTriangle::alpha),
            column<double>("x", worst, [](const BadTriangle& one) { return one.place.x; }),
            column<double>("y", worst, [](const BadTriangle& one) { return one.place.y; }),
+           column<double>("largest_degrees", worst, &BadTriangle::largest_degrees),
+           column<std::int64_t>("obtuse", worst, &BadTriangle::obtuse),
            column<double>("corner_degrees", worst, &BadTriangle::corner_degrees),
            column<double>("corner_x", worst, [](const BadTriangle& one) { return one.corner.x; }),
            column<double>("corner_y", worst, [](const BadTriangle& one) { return one.corner.y; })}};

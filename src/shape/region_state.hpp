@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: BSD-3-Clause Decides whether a point lies in a shape. The decision is fast if the shape has
+// SPDX-License-Identifier: BSD-3-Clause
+// Decides whether a point lies in a shape. The decision is fast if the shape has
 // very many parts and the point lies in few of them.
 #pragma once
 

@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: BSD-3-Clause Decides for which sites the local Delaunay condition (the Delaunay lemma) is
+// SPDX-License-Identifier: BSD-3-Clause
+// Decides for which sites the local Delaunay condition (the Delaunay lemma) is
 // enough to certify the triangles around a site. The answer depends on nearby boundary edges and ghosts, and on the
 // tiles next to the tiles of a rank.
 #pragma once

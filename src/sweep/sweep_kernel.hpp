@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: BSD-3-Clause Declares the vector kernels of a sweep. In one pass over the sites of a tile, a
+// SPDX-License-Identifier: BSD-3-Clause
+// Declares the vector kernels of a sweep. In one pass over the sites of a tile, a
 // kernel certifies their stars at the present positions and moves the sites. A kernel processes several sites at once;
 // the bits of the result do not depend on how many.
 #pragma once

@@ -36,15 +36,21 @@ class Incomplete(unittest.TestCase):
                 found = dict(zip(checks["name"][:], zip(checks["found"][:], checks["passed"][:])))[b"worst_alpha"]
                 worst = file["trime_mpi/worst_triangles"]
                 count = file["trime_mpi/quality"].attrs["bad_triangles"]
-                self.assertEqual(min(count, 10), len(worst["alpha"]))
+                obtuse = file["trime_mpi/quality"].attrs["obtuse_triangles"]
+                self.assertEqual(min(count, 10), sum(worst["alpha"][:] > 2))
+                self.assertLessEqual(min(max(count, obtuse), 10), len(worst["alpha"]))
+                self.assertLessEqual(len(worst["alpha"]), min(count + obtuse, 10))
+                self.assertTrue(((worst["alpha"][:] > 2) | (worst["obtuse"][:] == 1)).all())
+                self.assertEqual(list(worst["obtuse"][:] == 1), list(worst["largest_degrees"][:] > 90))
                 self.assertEqual(list(worst["alpha"][:]), sorted(worst["alpha"][:], reverse=True))
-                away = [a for a, degrees in zip(worst["alpha"][:], worst["corner_degrees"][:]) if degrees == 0]
+                away = [a for a, degrees in zip(worst["alpha"][:], worst["corner_degrees"][:])
+                        if degrees == 0 and a > 2]
                 self.assertEqual(found[0], away[0] if away else 1)
                 self.assertEqual(file["trime_mpi"].attrs["complete"], 1 - bool(away))
             if away:
                 self.assertEqual(done.returncode, 5)
                 self.assertRegex(done.stdout + done.stderr, r"failed checks: worst_alpha")
-                self.assertRegex(done.stdout, rf"Triangles with alpha above 2: {count}")
+                self.assertRegex(done.stdout, rf"Triangles with alpha above 2: {count}; obtuse triangles: {obtuse},")
 
 
 if __name__ == "__main__":

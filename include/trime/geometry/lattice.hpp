@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: BSD-3-Clause The lattice of the container, with a power of two as its step, on which every
+// SPDX-License-Identifier: BSD-3-Clause
+// The lattice of the container, with a power of two as its step, on which every
 // site lies; the periods of the container; and the Frame that holds both. Parts of a shape are made in a Frame. The
 // difference of two sites is an exact double: an integer below 2^45 in lattice steps. Because of this bound, the exact
 // in-circle test needs a bounded number of bits.

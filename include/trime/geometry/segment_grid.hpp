@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: BSD-3-Clause A search structure over the segments of closed polygons. The structure finds
+// SPDX-License-Identifier: BSD-3-Clause
+// A search structure over the segments of closed polygons. The structure finds
 // the nearest segment and decides whether a point lies inside, both exactly.
 #pragma once
 

@@ -44,6 +44,14 @@ double edge_ratio(geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r);
 /// Returns the smallest angle of a triangle in degrees.
 double min_angle_degrees(geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r);
 
+/// Returns true if an angle of a triangle is larger than 90 degrees. Exact for points of one lattice.
+bool is_obtuse(geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r);
+/// Returns the largest angle of a triangle in degrees.
+double max_angle_degrees(geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r);
+/// No obtuse triangle has a smaller aspect ratio: among right-angled triangles the isosceles one has the least ratio,
+/// (1 + sqrt(2)) / 2 = 1.20711.
+inline constexpr double least_obtuse_alpha = 1.2071;
+
 /// Quality measures of one triangle.
 struct TriangleMeasures {
   double alpha, beta;
@@ -125,6 +133,8 @@ struct BadTriangle {
   double corner_degrees = 0; ///< angle of the nearest sharp corner, at most 3 longest edges of the triangle away; 0:
                              ///< there is no such corner
   geometry::Vec2 corner;
+  double largest_degrees = 0; ///< its largest angle
+  std::int64_t obtuse = 0;    ///< 1 if this angle is larger than 90 degrees, by exact arithmetic
 };
 
 /// Quality of a whole mesh, as printed and stored.
@@ -139,9 +149,10 @@ struct QualitySummary {
                                       ///< at the middle; s is chosen so that the mean is 1
   std::array<std::int64_t, RatioStatistics::classes> alpha_histogram{};
   std::int64_t bad_triangles = 0;           ///< number of triangles with an alpha above 2
-  std::vector<BadTriangle> worst_triangles; ///< the worst triangles with an alpha above 2, at most 10, the worst first
-  BadTriangle
-      worst_away; ///< the worst triangle without a sharp corner near it; alpha is 0 if there is no such triangle
+  std::int64_t obtuse_triangles = 0;        ///< number of triangles with an angle above 90 degrees
+  std::int64_t obtuse_at_corners = 0;       ///< number of obtuse triangles near a sharp corner, see BadTriangle
+  std::vector<BadTriangle> worst_triangles; ///< at most 10 with an alpha above 2 or an obtuse angle, the worst first
+  BadTriangle worst_away; ///< the worst triangle with an alpha above 2 and no sharp corner near it; alpha 0: none
 };
 
 /// One check of the mesh: it passes if the found value agrees with the expected one.

@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: BSD-3-Clause The mesher: makes a certified mesh from a domain or shape and a size field, on
+// SPDX-License-Identifier: BSD-3-Clause
+// The mesher: makes a certified mesh from a domain or shape and a size field, on
 // all ranks. The mesher can also estimate, without making a mesh, how it would simplify the boundary.
 #pragma once
 

@@ -15,7 +15,7 @@ using mesh::BadTriangle;
 
 /// Triangle number k of many: some are equally bad, a third are excused.
 BadTriangle triangle(int k) {
-  return {2.0 + k * 7 % 31, {0.01 * (k * 13 % 40), 0.02 * k}, k % 3 == 0 ? 20.0 : 0.0, {0.5, 0.5}};
+  return {2.0 + k * 7 % 31, {0.01 * (k * 13 % 40), 0.02 * k}, k % 3 == 0 ? 20.0 : 0.0, {0.5, 0.5}, 95, k % 4 == 0};
 }
 
 TEST(BadTriangles, AreTheSameHoweverTheyAreSharedOut) {
@@ -28,11 +28,14 @@ TEST(BadTriangles, AreTheSameHoweverTheyAreSharedOut) {
       (k % 2 == 0 ? shared : other_thread).add(triangle(count - 1 - k));
   }
   shared.merge(other_thread);
-  shared.gather(comm, comm.sum(shared.count()));
+  const BadTriangles::Counts own = shared.counts();
+  shared.gather(comm, {comm.sum(own.bad), comm.sum(own.obtuse), comm.sum(own.obtuse_at_corners)});
   mesh::QualitySummary expected, found;
   alone.tell(expected);
   shared.tell(found);
-  EXPECT_EQ(found.bad_triangles, count);
+  EXPECT_EQ(found.bad_triangles, 96) << "alpha is 2 for four of them, which is not above 2";
+  EXPECT_EQ(found.obtuse_triangles, 25);
+  EXPECT_EQ(found.obtuse_at_corners, 9) << "those with a number that 12 divides";
   ASSERT_EQ(found.worst_triangles.size(), 10u);
   for (std::size_t k = 0; k < 10; ++k) {
     EXPECT_EQ(found.worst_triangles[k].alpha, expected.worst_triangles[k].alpha);
@@ -46,7 +49,7 @@ TEST(BadTriangles, AreTheSameHoweverTheyAreSharedOut) {
 TEST(BadTriangles, NoneIsNoneOnEveryRank) {
   mesh::QualitySummary quality;
   BadTriangles none;
-  none.gather(comm::Communicator::world(), 0);
+  none.gather(comm::Communicator::world(), {});
   none.tell(quality);
   EXPECT_EQ(quality.bad_triangles, 0);
   EXPECT_TRUE(quality.worst_triangles.empty());
@@ -56,6 +59,34 @@ TEST(BadTriangles, NoneIsNoneOnEveryRank) {
   quality.worst_away.alpha = 5.5;
   EXPECT_FALSE(worst_alpha_check(quality, 5).passed);
   EXPECT_TRUE(worst_alpha_check(quality, 6).passed);
+}
+
+TEST(BadTriangles, ObtuseOnesAreCountedAndListedHoweverGoodTheyAre) {
+  const comm::Communicator comm = comm::Communicator::world();
+  const geometry::Frame frame(geometry::Box{{0, 0}, {1, 1}});
+  const shape::RegionShape square({shape::Part::rectangle("square", {{0, 0}, {1, 1}}, frame)}, "square", frame);
+  const sizing::UniformSize size(0.125);
+  const auto sites = testing::make_boundary_sites(square.boundary(), size, frame.lattice(), 32);
+  const geometry::Periods periods{};
+  const SharpCorners corners(sites, periods);
+  QualityMeter meter(size, periods, corners);
+  std::vector<float> alpha(3), beta(3);
+  meter.write_to(alpha, beta);
+  const double step = frame.lattice().step();
+  if (comm.rank() == comm.size() - 1) {
+    meter.add_triangle({0.25, 0.25}, {0.5, 0.25}, {0.25, 0.5});        // a right angle
+    meter.add_triangle({0.25, 0.25}, {0.5, 0.25}, {0.25 - step, 0.5}); // one lattice step more
+    meter.add_triangle({0.25, 0.25}, {0.5, 0.25}, {0.25 + step, 0.5}); // one less
+    meter.finish();
+  }
+  const mesh::QualitySummary quality = summarize(comm, meter.sums());
+  EXPECT_EQ(quality.bad_triangles, 0);
+  EXPECT_EQ(quality.obtuse_triangles, 1);
+  EXPECT_EQ(quality.obtuse_at_corners, 0);
+  ASSERT_EQ(quality.worst_triangles.size(), 1u);
+  EXPECT_EQ(quality.worst_triangles[0].obtuse, 1);
+  EXPECT_NEAR(quality.worst_triangles[0].largest_degrees, 90, 1e-9);
+  EXPECT_EQ(quality.worst_away.alpha, 0);
 }
 
 TEST(SharpCorners, ExcuseTrianglesWithinThreeOfTheirEdges) {

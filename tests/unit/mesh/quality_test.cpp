@@ -66,6 +66,32 @@ TEST(TriangleQuality, WhatIsSurelyBelowIsBelow) {
   EXPECT_FALSE(is_surely_below(2, {0, 0}, {1, 0}, {2, 0}));
 }
 
+TEST(TriangleQuality, ObtuseIsDecidedExactly) {
+  constexpr double step = 0x1p-40;
+  for (const auto& [x, obtuse] : {std::pair{0.25 - step, true}, {0.25, false}, {0.25 + step, false}}) {
+    const Vec2 a{0.25, 0.25}, b{0.5, 0.25}, c{x, 0.75};
+    EXPECT_EQ(is_obtuse(a, b, c), obtuse) << x - 0.25;
+    EXPECT_EQ(is_obtuse(b, c, a), obtuse);
+    EXPECT_EQ(is_obtuse(c, a, b), obtuse);
+    EXPECT_EQ(is_obtuse(a, c, b), obtuse) << "also clockwise";
+    EXPECT_NEAR(max_angle_degrees(b, c, a), 90, 1e-9);
+  }
+  EXPECT_NEAR(max_angle_degrees({0, 0}, {1, 0}, {-1, std::sqrt(3.0)}), 120, 1e-12);
+  EXPECT_TRUE(is_obtuse({0, 0}, {1, 0}, {2, 0}));
+}
+
+TEST(TriangleQuality, NoObtuseTriangleHasASmallerAlpha) {
+  EXPECT_NEAR(least_obtuse_alpha, (1 + std::sqrt(2.0)) / 2, 1e-5);
+  EXPECT_LT(least_obtuse_alpha, aspect_ratio({0, 0}, {1, 0}, {0, 1}));
+  for (std::uint64_t k = 0; k < 20000; ++k) {
+    const auto random = [&](std::uint64_t j) { return random_unit(5, RandomPurpose::test, k, j); };
+    const Vec2 apex{random(0), 0.3 + 0.4 * random(1)};
+    if (is_obtuse({0, 0}, {1, 0}, apex)) {
+      ASSERT_GT(aspect_ratio({0, 0}, {1, 0}, apex), least_obtuse_alpha) << apex.x << " " << apex.y;
+    }
+  }
+}
+
 TEST(TriangleQuality, FlatTrianglesAreInfinitelyBadButDefined) {
   EXPECT_TRUE(std::isinf(aspect_ratio({0, 0}, {1, 1}, {2, 2})));
   EXPECT_EQ(min_angle_degrees({0, 0}, {1, 1}, {2, 2}), 0);
