@@ -154,8 +154,7 @@ private:
     const bool inside = part.clear || guard_.inside(p);
     if (!valid && inside && grid_.container().contains(p))
       sizing::fail_for_size(p, h);
-    const double free =
-        valid && inside ? PlacingRules::density_strip * h : 0; // outside of the shape the value is not used
+    const double free = valid && inside ? PlacingRules::density_strip * h : 0; // not used outside of the shape
     double to_boundary = INFINITY;
     bool clear = part.clear;
     if (!clear) {
