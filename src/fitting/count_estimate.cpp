@@ -143,6 +143,10 @@ double CountEstimate::crowding(double factor) const {
   return std::clamp(share * share, 1.0, most_crowding);
 }
 
+double CountEstimate::boundary_share(double factor) const {
+  return boundary_points(context_.asked_size(factor)).value_or(0) / points_;
+}
+
 bool CountEstimate::use_strides(double factor) {
   if (!generalises(context_) || context_.given_boundary.periods.any())
     return false;

@@ -28,6 +28,9 @@ public:
   /// at this factor: simplified curves are about as long. Collective. @return whether it does
   bool use_strides(double factor);
 
+  /// Returns the share of the sites that lie on the boundary at this factor; 0 if it is not known. Collective.
+  double boundary_share(double factor) const;
+
   /// @brief By how much the factor should rather be larger, a guess: where a good part of the boundary sites are
   /// corners, the size is lowered around many of them. Collective.
   double crowding(double factor) const;

@@ -78,8 +78,10 @@ private:
     CountEstimate estimate(context_, points_, FitRules::reference_spacing * uniform,
                            std::fmax(rough_, FitRules::reference_coarsening));
     factor = estimated_factor(estimate, factor, true);
-    if (estimate.use_strides(factor))
-      factor = FitRules::limits_on_ragged * estimated_factor(estimate, factor, false);
+    if (estimate.use_strides(factor)) {
+      factor = estimated_factor(estimate, factor, false);
+      factor *= larger_for_limits(estimate.boundary_share(factor));
+    }
     search_.expect(FitRules::uncrowded_power);
     return factor;
   }

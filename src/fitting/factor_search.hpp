@@ -10,6 +10,11 @@
 
 namespace trime::fitting {
 
+/// Returns by how much an estimate for a ragged boundary is raised. @param share of the sites that lie on the boundary
+inline double larger_for_limits(double share) {
+  return 1 + FitRules::limits_on_ragged * share * share;
+}
+
 /// @brief Assumes that the number of points is a power of the factor, which follows from the last two trials. It uses
 /// only + - * / and sqrt, because ranks on different machines must take exactly the same steps. It interpolates the
 /// inverse root of the number, which is a straight line for the power -2 and almost one for the others.

@@ -3,6 +3,7 @@
 
 #include "comm/agree.hpp"
 #include "core/angle.hpp"
+#include "fitting/factor_search.hpp"
 #include "fitting/layout.hpp"
 #include "fitting/points_of_length.hpp"
 #include "fitting/rules.hpp"
@@ -171,7 +172,8 @@ std::variant<LatticeFit, TooFewPoints> fit_points(const LayoutContext& context, 
     fit.runs = fitting_runs(context, fit.stage);
     const double spacing = fit.runs.spacing;
     if (is_of_no_use(context, fit.stage)) {
-      fit.fitted.factor = FitRules::limits_on_ragged * spacing / relative;
+      const double share = static_cast<double>(fit.stage.placed_first()) / expected;
+      fit.fitted.factor = larger_for_limits(share) * spacing / relative;
       return fit;
     }
     const bool comparable = spacing < comparable_spacing * laid; // else so few sites are wanted that it means nothing

@@ -251,6 +251,8 @@ std::vector<char> follow_connected(const CurveMap& map, const std::vector<char>&
   const auto is_good = [&](const std::vector<char>& labels) {
     return labels.empty() || confirms(map, labels, plan.witnesses);
   };
+  if (plan.changed.empty())
+    return given;
   std::vector<char> labels = follow(map, given, plan);
   if (!is_good(labels))
     labels = back_if([](const NarrowPart& part) { return part.lids.size() != 1; });
@@ -282,12 +284,6 @@ bool have_same_pieces(const Boundary& a, const Boundary& b) {
   return polygon::piece_count(a) == polygon::piece_count(b) && ends(a) == ends(b);
 }
 
-/// The result of a pass over the boundary.
-struct Passed {
-  std::unique_ptr<Generalised> result; ///< null if nothing was to be done
-  bool only_thinned;                   ///< there were no narrow parts, or nothing could improve them
-};
-
 /// What comes of the narrow parts in a pass.
 struct Treated {
   std::vector<char> labels;      ///< empty if nothing good does
@@ -312,19 +308,16 @@ Treated treat_narrow_parts(const CurveMap& map, const std::vector<char>& given, 
 }
 
 /// Makes one pass over the boundary. Returns null if nothing is to be done.
-Passed pass_over(const Boundary& boundary, const sizing::SizeField& size, const geometry::Lattice& lattice,
-                 const Choice& choice, std::span<const Vec2> inside, Corners& corners) {
-  const std::unique_ptr<const Boundary> thin =
-      without_ragged_runs(boundary, size, lattice, inside, {GeneraliseRules::thinned_share, Thinning::to_the_end});
-  CurveMap map(thin ? *thin : boundary, size, lattice, inside);
+std::unique_ptr<Generalised> pass_over(const Boundary& boundary, const sizing::SizeField& size,
+                                       const geometry::Lattice& lattice, const Choice& choice,
+                                       std::span<const Vec2> inside, Corners& corners) {
+  CurveMap map(boundary, size, lattice, inside);
   if (!map.is_valid())
-    return {};
+    return nullptr;
   add_nodes_to_narrow_parts(map);
   const std::vector<char> given = map.inside();
   auto result = std::make_unique<Generalised>();
   polygon::Simplification& counts = result->counts;
-  if (thin)
-    counts.thinned = polygon::piece_count(boundary) - polygon::piece_count(*thin);
   std::vector<char> filled = given;
   std::optional<Regions> regions(std::in_place, map, given);
   counts.filled = fill_small_holes(map, *regions, filled);
@@ -333,19 +326,30 @@ Passed pass_over(const Boundary& boundary, const sizing::SizeField& size, const 
   Treated treated = treat_narrow_parts(map, filled, *regions, choice, corners);
   const std::vector<char>& labels = treated.labels;
   if (labels.empty())
-    return {};
+    return nullptr;
   counts.add(treated.counts);
   VertexMoves moves(map, labels, lattice, choice.bounds);
   counts.widened = moves.widen(std::move(treated.apart));
   moves.merge_close_corners();
   counts.largest_move = moves.largest_share();
-  const bool is_as_given = labels == given && !moves.any();
-  if (is_as_given && !thin)
-    return {};
+  if (labels == given && !moves.any())
+    return nullptr;
   result->boundary = build_loops(map, labels, moves.any() ? moves.places() : MovedVertices{});
   if (result->boundary.loops.empty() || have_same_pieces(result->boundary, boundary))
-    return {}; // nothing is left, or vertices that were added went again
-  return {std::move(result), is_as_given};
+    return nullptr; // nothing is left, or vertices that were added went again
+  return result;
+}
+
+/// Returns the boundary with fewer vertices in ragged runs; null if none goes.
+std::unique_ptr<Generalised> with_thin_runs(const Boundary& boundary, const sizing::SizeField& size,
+                                            const geometry::Lattice& lattice, std::span<const Vec2> inside) {
+  std::unique_ptr<Boundary> thin =
+      without_ragged_runs(boundary, size, lattice, inside, {GeneraliseRules::thinned_share, Thinning::to_the_end});
+  if (!thin)
+    return nullptr;
+  auto result = std::make_unique<Generalised>(Generalised{std::move(*thin), {}});
+  result->counts.thinned = polygon::piece_count(boundary) - polygon::piece_count(result->boundary);
+  return result;
 }
 
 /// Returns the boundary without ragged runs, or null if nothing is ragged. Smooths less, and finally not at all, while
@@ -401,19 +405,18 @@ std::unique_ptr<Generalised> generalise(const Boundary& boundary, const sizing::
     return any;
   };
   Corners corners;
+  const auto latest = [&]() -> const Boundary& { return result ? result->boundary : boundary; };
   const auto pass = [&](int most) { // what was moved apart may leave others narrow
+    follow_with(with_thin_runs(latest(), size, lattice, held));
     for (int k = 0; k < most; ++k) {
-      Passed passed = pass_over(result ? result->boundary : boundary, size, lattice, choice, held, corners);
+      const bool any = follow_with(pass_over(latest(), size, lattice, choice, held, corners));
       corners.is_first_pass = false;
-      if (!follow_with(std::move(passed.result)))
+      if (!any)
         break;
-      if (passed.only_thinned &&
-          !without_ragged_runs(result->boundary, size, lattice, held, {GeneraliseRules::thinned_share}))
-        break; // the next pass would see the same curves
     }
   };
   pass(GeneraliseRules::most_passes);
-  if (follow_with(smoothed(result ? result->boundary : boundary, size, lattice, held)))
+  if (follow_with(smoothed(latest(), size, lattice, held)))
     pass(GeneraliseRules::late_passes);
   if (result)
     result->counts.held = corners.held;
@@ -424,9 +427,10 @@ bool would_generalise(const Boundary& boundary, const sizing::SizeField& size, c
                       const Choice& choice, std::span<const Vec2> inside) {
   if (boundary.periods.any() || boundary.loops.empty())
     return false;
+  const std::vector<Vec2> held = those_inside(boundary, size, lattice, inside);
   Corners corners;
   return smooth_ragged_runs(boundary, size, lattice, GeneraliseRules::flow_reach) ||
-         pass_over(boundary, size, lattice, choice, those_inside(boundary, size, lattice, inside), corners).result;
+         with_thin_runs(boundary, size, lattice, held) || pass_over(boundary, size, lattice, choice, held, corners);
 }
 
 } // namespace trime::generalise

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace trime::generalise {
 namespace {
@@ -212,13 +213,19 @@ std::vector<Sector> sectors_at(const CurveMap& map, const Rim& rim, LocalIndex v
   return sectors;
 }
 
-void restore_around(const Triangulation& mesh, LocalIndex v, const std::vector<char>& given,
-                    std::vector<char>& labels) {
+/// Gives the triangles around a vertex their old labels. Returns those that change.
+std::vector<LocalIndex> restore_around(const Triangulation& mesh, LocalIndex v, const std::vector<char>& given,
+                                       std::vector<char>& labels) {
+  std::vector<LocalIndex> changed;
   HalfEdge e = mesh.leaving(v);
   do {
-    labels[at(Triangulation::triangle(e))] = given[at(Triangulation::triangle(e))];
+    const LocalIndex t = Triangulation::triangle(e);
+    if (labels[at(t)] != given[at(t)])
+      changed.push_back(t);
+    labels[at(t)] = given[at(t)];
     e = mesh.around(e);
   } while (e != mesh.leaving(v));
+  return changed;
 }
 
 } // namespace
@@ -230,27 +237,39 @@ Boundary build_loops(const CurveMap& map, const std::vector<char>& labels, const
 bool separate_touching_loops(const CurveMap& map, const std::vector<char>& given, std::vector<char>& labels) {
   const Triangulation& mesh = map.mesh();
   const Rim rim(mesh, labels);
-  for (int round = 0; round < GeneraliseRules::touch_rounds; ++round) {
-    bool changed = false;
-    for (LocalIndex v = 4; v < mesh.vertex_count(); ++v) {
+  std::set<LocalIndex> here, next; // vertices of triangles that have changed, in this round and for the next one
+  LocalIndex v = 0;
+  const auto look_at = [&](LocalIndex t) {
+    for (HalfEdge e = 3 * t; e < 3 * t + 3; ++e)
+      if (const LocalIndex u = mesh.origin(e); u >= 4)
+        (u > v ? here : next).insert(u);
+  };
+  for (LocalIndex t = 0; t < mesh.triangle_count(); ++t)
+    if (labels[at(t)] != given[at(t)])
+      look_at(t);
+  for (int round = 0; round < GeneraliseRules::touch_rounds && !here.empty(); ++round) {
+    for (; !here.empty(); here.erase(here.begin())) {
+      v = *here.begin();
       std::vector<Sector> sectors = sectors_at(map, rim, v);
       while (sectors.size() > 1) {
-        changed = true;
         const auto least = std::min_element(sectors.begin(), sectors.end(),
                                             [](const Sector& a, const Sector& b) { return a.longest < b.longest; });
         if (least->longest > GeneraliseRules::narrow_inside * map.size(v)) {
-          restore_around(mesh, v, given, labels);
+          for (const LocalIndex t : restore_around(mesh, v, given, labels))
+            look_at(t);
           break;
         }
-        for (const LocalIndex t : least->triangles)
+        for (const LocalIndex t : least->triangles) {
           labels[at(t)] = 0;
+          look_at(t);
+        }
         sectors.erase(least);
       }
     }
-    if (!changed)
-      return true;
+    here.swap(next);
+    v = 0;
   }
-  return false;
+  return here.empty();
 }
 
 } // namespace trime::generalise

@@ -20,7 +20,7 @@ geometry::Boundary build_loops(const CurveMap& map, const std::vector<char>& lab
 /// @brief Changes labels until no two loops around the inside meet in a vertex. Where they meet, the part with the
 /// shortest edges is removed, if these are shorter than GeneraliseRules::narrow_inside and the part has no point that
 /// must stay inside. Otherwise the triangles around the vertex get their old labels back. Returns false if that does
-/// not end. O(triangles) per round
+/// not end. O(triangles + changed triangles log(changed triangles))
 /// @param given labels of a boundary that does not touch itself
 bool separate_touching_loops(const CurveMap& map, const std::vector<char>& given, std::vector<char>& labels);
 

@@ -94,11 +94,14 @@ void VertexMoves::widen_one(const NarrowPart& part, std::vector<Vec2>& shifts) c
 
 /// Shifts of vertices that follow each other on the curve differ by less than their distance: no spikes.
 void VertexMoves::calm(std::vector<Vec2>& shifts) const {
+  std::vector<HalfEdge> edges;
+  for (HalfEdge e = 0; e < 3 * mesh_.triangle_count(); ++e)
+    if (mesh_.mark(e) >= 0 &&
+        (shifts[at(root(mesh_.origin(e)))] != Vec2{} || shifts[at(root(mesh_.target(e)))] != Vec2{}))
+      edges.push_back(e);
   for (int round = 0; round < GeneraliseRules::calming_rounds; ++round) {
     bool changed = false;
-    for (HalfEdge e = 0; e < 3 * mesh_.triangle_count(); ++e) {
-      if (mesh_.mark(e) < 0)
-        continue;
+    for (const HalfEdge e : edges) {
       const LocalIndex a = root(mesh_.origin(e)), b = root(mesh_.target(e));
       const double most = GeneraliseRules::steepest_shift * length(mesh_.point(b) - mesh_.point(a));
       const double difference = length(shifts[at(a)] - shifts[at(b)]);
@@ -114,16 +117,30 @@ void VertexMoves::calm(std::vector<Vec2>& shifts) const {
   }
 }
 
-void VertexMoves::place_all(const std::vector<Vec2>& shifts) {
-  for (LocalIndex v = 4; v < mesh_.vertex_count(); ++v) {
+VertexMoves::Moving VertexMoves::those_moving(const std::vector<Vec2>& shifts) const {
+  Moving moving;
+  for (LocalIndex v = 4; v < mesh_.vertex_count(); ++v)
+    if (shifts[at(root(v))] != Vec2{})
+      moving.vertices.push_back(v);
+  for (LocalIndex t = 0; t < mesh_.triangle_count(); ++t)
+    for (HalfEdge e = 3 * t; e < 3 * t + 3; ++e)
+      if (shifts[at(root(mesh_.origin(e)))] != Vec2{}) {
+        moving.triangles.push_back(t);
+        break;
+      }
+  return moving;
+}
+
+void VertexMoves::place(const Moving& moving, const std::vector<Vec2>& shifts) {
+  for (const LocalIndex v : moving.vertices) {
     const Vec2 p = lattice_.snap(mesh_.point(root(v)) + shifts[at(root(v))]);
     places_[at(v)] = {std::clamp(p.x, bounds_.min.x, bounds_.max.x), std::clamp(p.y, bounds_.min.y, bounds_.max.y)};
   }
 }
 
-std::vector<LocalIndex> VertexMoves::turned_over() const {
+std::vector<LocalIndex> VertexMoves::turned_over(std::span<const LocalIndex> triangles) const {
   std::vector<LocalIndex> bad;
-  for (LocalIndex t = 0; t < mesh_.triangle_count(); ++t)
+  for (const LocalIndex t : triangles)
     if (turns_over(t))
       for (HalfEdge e = 3 * t; e < 3 * t + 3; ++e)
         bad.push_back(root(mesh_.origin(e)));
@@ -133,10 +150,11 @@ std::vector<LocalIndex> VertexMoves::turned_over() const {
 }
 
 void VertexMoves::shorten(std::vector<Vec2>& shifts) {
-  place_all(shifts);
+  const Moving moving = those_moving(shifts);
+  place(moving, shifts);
   for (int round = 0; round <= GeneraliseRules::displacement_rounds; ++round) {
     const double factor = round == GeneraliseRules::displacement_rounds ? 0 : 0.5;
-    const std::vector<LocalIndex> bad = turned_over();
+    const std::vector<LocalIndex> bad = turned_over(moving.triangles);
     if (bad.empty())
       break;
     bool stopped = false;
@@ -144,7 +162,7 @@ void VertexMoves::shorten(std::vector<Vec2>& shifts) {
       stopped |= shifts[at(v)] != Vec2{};
       shifts[at(v)] = factor * shifts[at(v)];
     }
-    place_all(shifts);
+    place(moving, shifts);
     if (factor == 0 && stopped)
       --round; // those next to them follow
   }

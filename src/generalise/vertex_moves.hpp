@@ -49,12 +49,17 @@ private:
   bool is_wall(HalfEdge e) const { return rim_.is_inside(e) != rim_.is_inside(mesh_.twin(e)); }
   void merge(LocalIndex u, LocalIndex v);
   bool turns_over(LocalIndex t) const;
-  /// Moves all vertices of the map by their shifts, onto the lattice and into the bounds.
-  void place_all(const std::vector<geometry::Vec2>& shifts);
+  /// The vertices that move, and the triangles that they belong to.
+  struct Moving {
+    std::vector<LocalIndex> vertices, triangles;
+  };
+  Moving those_moving(const std::vector<geometry::Vec2>& shifts) const;
+  /// Moves the vertices by their shifts, onto the lattice and into the bounds.
+  void place(const Moving& moving, const std::vector<geometry::Vec2>& shifts);
   /// Makes shifts smaller until no triangle turns over, and places the vertices.
   void shorten(std::vector<geometry::Vec2>& shifts);
-  /// Returns the roots of the vertices of triangles that turn over, sorted.
-  std::vector<LocalIndex> turned_over() const;
+  /// Returns the roots of the vertices of those triangles that turn over, sorted.
+  std::vector<LocalIndex> turned_over(std::span<const LocalIndex> triangles) const;
   /// The sides of a narrow part, and the ends of its slits.
   struct Sides {
     struct AtVertex {
