@@ -155,8 +155,10 @@ CleanupLimits::CleanupLimits(GlobalId sites, GlobalId most_points) : wanted_site
 
 /// For more sites. Some are kept for places where nothing but smaller triangles helps.
 GlobalId CleanupLimits::room(int stage) const {
-  const GlobalId reserve =
-      stage >= Rules::stages ? 0 : 1 + static_cast<GlobalId>(Rules::reserved * static_cast<double>(most_points_));
+  const auto share = [&](double of_all) { return static_cast<GlobalId>(of_all * static_cast<double>(most_points_)); };
+  const GlobalId reserve = stage > Rules::stages    ? 0
+                           : stage == Rules::stages ? share(Rules::reserved_for_obtuse)
+                                                    : 1 + share(Rules::reserved);
   return most_points_ - sites_ - reserve;
 }
 
@@ -167,10 +169,11 @@ PatchBudget CleanupLimits::budget(int stage, double again_alpha) const {
   const bool scarce = static_cast<double>(sites_) < (1 - scarcity) * wanted;
   PatchBudget budget;
   budget.may_insert = share(room(stage));
-  budget.may_refine = std::min(GlobalId{Rules::most_refined}, most_points_ - sites_);
+  budget.may_refine = std::clamp<GlobalId>(room(std::max(stage, Rules::stages)), 0, Rules::most_refined);
   budget.may_delete = share(sites_ - least_sites_);
   budget.is_again = stage > 1;
   budget.again_alpha = again_alpha;
+  budget.is_last = stage == Rules::stages + Rules::obtuse_stages;
   if (stage > Rules::stages)
     budget.obtuse_weight = Rules::obtuse_weight[at(stage - Rules::stages - 1)];
   budget.deletion_handicap = crowded ? Rules::handicap_if_crowded : scarce ? Rules::handicap_if_scarce : 1;
