@@ -155,10 +155,8 @@ CleanupLimits::CleanupLimits(GlobalId sites, GlobalId most_points) : wanted_site
 
 /// For more sites. Some are kept for places where nothing but smaller triangles helps.
 GlobalId CleanupLimits::room(int stage) const {
-  const auto share = [&](double of_all) { return static_cast<GlobalId>(of_all * static_cast<double>(most_points_)); };
-  const GlobalId reserve = stage > Rules::stages    ? 0
-                           : stage == Rules::stages ? share(Rules::reserved_for_obtuse)
-                                                    : 1 + share(Rules::reserved);
+  const GlobalId reserve =
+      stage >= Rules::stages ? 0 : 1 + static_cast<GlobalId>(Rules::reserved * static_cast<double>(most_points_));
   return most_points_ - sites_ - reserve;
 }
 
@@ -167,9 +165,11 @@ PatchBudget CleanupLimits::budget(int stage, double again_alpha) const {
   const double most = static_cast<double>(most_points_), wanted = static_cast<double>(wanted_sites_);
   const bool crowded = static_cast<double>(room(stage)) < scarcity * most;
   const bool scarce = static_cast<double>(sites_) < (1 - scarcity) * wanted;
+  const GlobalId for_obtuse =
+      stage > Rules::stages ? 0 : static_cast<GlobalId>(Rules::reserved_for_obtuse * static_cast<double>(most_points_));
   PatchBudget budget;
-  budget.may_insert = share(room(stage));
-  budget.may_refine = std::clamp<GlobalId>(room(std::max(stage, Rules::stages)), 0, Rules::most_refined);
+  budget.may_insert = share(std::min(room(stage), most_points_ - sites_ - for_obtuse));
+  budget.may_refine = std::clamp<GlobalId>(most_points_ - sites_ - for_obtuse, 0, Rules::most_refined);
   budget.may_delete = share(sites_ - least_sites_);
   budget.is_again = stage > 1;
   budget.again_alpha = again_alpha;
