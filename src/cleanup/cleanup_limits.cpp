@@ -165,12 +165,15 @@ PatchBudget CleanupLimits::budget(int stage, double again_alpha) const {
   const double most = static_cast<double>(most_points_), wanted = static_cast<double>(wanted_sites_);
   const bool crowded = static_cast<double>(room(stage)) < scarcity * most;
   const bool scarce = static_cast<double>(sites_) < (1 - scarcity) * wanted;
+  const GlobalId for_obtuse =
+      stage > Rules::stages ? 0 : static_cast<GlobalId>(Rules::reserved_for_obtuse * static_cast<double>(most_points_));
   PatchBudget budget;
-  budget.may_insert = share(room(stage));
-  budget.may_refine = std::min(GlobalId{Rules::most_refined}, most_points_ - sites_);
+  budget.may_insert = share(std::min(room(stage), most_points_ - sites_ - for_obtuse));
+  budget.may_refine = std::clamp<GlobalId>(most_points_ - sites_ - for_obtuse, 0, Rules::most_refined);
   budget.may_delete = share(sites_ - least_sites_);
   budget.is_again = stage > 1;
   budget.again_alpha = again_alpha;
+  budget.is_last = stage == Rules::stages + Rules::obtuse_stages;
   if (stage > Rules::stages)
     budget.obtuse_weight = Rules::obtuse_weight[at(stage - Rules::stages - 1)];
   budget.deletion_handicap = crowded ? Rules::handicap_if_crowded : scarce ? Rules::handicap_if_scarce : 1;

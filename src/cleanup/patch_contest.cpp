@@ -26,6 +26,33 @@ int strain(const Patch& patch, LocalIndex v) {
   return excess * excess;
 }
 
+/// The corners of a triangle from the largest index on, however the triangulation stores them.
+Corners largest_first(Corners corners) {
+  std::rotate(corners.begin(), std::max_element(corners.begin(), corners.end()), corners.end());
+  return corners;
+}
+
+/// Looks for the obtuse triangle nearest to a place, within two sizes. @return whether there is one; then it becomes
+/// the triangle of the place
+bool find_obtuse(const Patch& patch, BadPlace& place) {
+  double least = 4 * place.size * place.size;
+  bool found = false;
+  for (const PatchMesh::Triangle& triangle : patch.mesh.triangles()) {
+    const Corners corners = triangle.vertex[0] < 0 ? triangle.vertex : largest_first(triangle.vertex);
+    if (corners[0] < 0 || patch.is_surely_below(least_steep_alpha, corners) || !patch.counts(triangle) ||
+        !(patch.least_cotangent(corners) < CleanupRules::obtuse_cotangent))
+      continue;
+    const double distance = geometry::squared_length(patch.middle_of(corners) - place.middle);
+    if (distance < least) {
+      least = distance;
+      place.corners = corners;
+      place.alpha = patch.alpha(corners);
+      found = true;
+    }
+  }
+  return found;
+}
+
 } // namespace
 
 void PatchScore::list_near(const Patch& now, const BadPlace& place) {
@@ -142,7 +169,8 @@ AlphaScore PatchScore::score(const Patch& trial) const {
 PatchContest::PatchContest(const PatchStart& start, PatchChords& chords, PatchMover& mover, const PatchOptions& options)
     : operate_alpha_(options.operate_alpha), chords_(chords), mover_(mover), editor_(start, chords),
       refiner_(chords, editor_), score_(options.bad_alpha), trial_(start.patch()), best_(start.patch()),
-      runners_(Rules::runners, Runner{start.patch()}), finalists_(Rules::finalists, Runner{start.patch()}) {}
+      runners_(Rules::runners_at_last, Runner{start.patch()}),
+      finalists_(Rules::finalists_at_last, Runner{start.patch()}) {}
 
 BadPlace PatchContest::place_of(const Patch& now, const Corners& worst) const {
   BadPlace place{worst, now.middle_of(worst), now.alpha(worst), 0};
@@ -172,6 +200,8 @@ bool PatchContest::hold(Patch& now, const Corners& worst, const PatchBudget& bud
   if (is_against_obtuse_)
     operations_.list_against_obtuse(now, place);
   try_operations(now, place, budget, bar);
+  if (is_against_obtuse_ && budget.is_last && !bar.found)
+    try_pairs(place, budget, bar);
   const double least_bad = budget.is_again ? Rules::refine_alpha : Rules::refine_alpha_at_first;
   if (!is_first && !is_against_obtuse_ && std::fmin(place.alpha, bar.largest) > least_bad && !operations_.all().empty())
     try_refining(now, place, budget, bar);
@@ -297,16 +327,21 @@ int PatchContest::strain_added(const Patch& now, const PatchOperation& operation
   return added;
 }
 
-/// Places for the best trials, all of them free. @param few places if the contest is not thorough
-std::span<PatchContest::Runner> PatchContest::best_of(std::vector<Runner>& all, std::size_t few) const {
+/// Places for the best trials, all of them free.
+std::span<PatchContest::Runner> PatchContest::best_of(std::vector<Runner>& all, std::size_t most) {
   for (Runner& runner : all)
     runner.sum = INFINITY;
-  return std::span(all).first(is_thorough_ ? all.size() : std::min(few, all.size()));
+  return std::span(all).first(most);
 }
 
 void PatchContest::try_operations(const Patch& now, const BadPlace& place, const PatchBudget& budget, Bar& bar) {
-  const std::span<Runner> runners = best_of(runners_, few_runners),
-                          finalists = best_of(finalists_, Rules::few_finalists);
+  const bool is_wide = is_against_obtuse_ && budget.is_last;
+  const std::span<Runner> runners = best_of(runners_, is_wide        ? Rules::runners_at_last
+                                                      : is_thorough_ ? Rules::runners
+                                                                     : few_runners),
+                          finalists = best_of(finalists_, is_wide        ? Rules::finalists_at_last
+                                                          : is_thorough_ ? Rules::finalists
+                                                                         : Rules::few_finalists);
   const double no_others_below = (is_thorough_ ? Rules::excellent_if_thorough : Rules::excellent) * bar.first;
   const double patience = !is_thorough_ ? 1 : budget.is_again ? Rules::patience_again : Rules::patience;
   for (const PatchOperation& operation : operations_.all()) {
@@ -324,6 +359,25 @@ void PatchContest::try_operations(const Patch& now, const BadPlace& place, const
   for (Runner& finalist : finalists)
     if (finalist.sum < INFINITY)
       finish(now, finalist, bar);
+}
+
+/// Adds second operations to the best trials of a contest that nobody won, at the obtuse triangle that each has left.
+void PatchContest::try_pairs(const BadPlace& place, const PatchBudget& budget, Bar& bar) {
+  first_of_two_.clear();
+  for (const Runner& finalist : finalists_)
+    if (finalist.sum < INFINITY && !finalist.patch.broken && first_of_two_.size() < Rules::first_of_two)
+      first_of_two_.push_back(finalist.patch);
+  for (Patch& first : first_of_two_) {
+    BadPlace second = place;
+    if (!find_obtuse(first, second))
+      continue;
+    score_.begin(first, second, budget.obtuse_weight);
+    operations_.list(first, second, is_thorough_);
+    operations_.list_against_obtuse(first, second);
+    try_operations(first, second, budget, bar);
+    if (bar.found)
+      return;
+  }
 }
 
 /// Smaller triangles: more of them, so their largest alpha decides and not the sum.

@@ -92,7 +92,7 @@ private:
   BadPlace place_of(const Patch& now, const Corners& worst) const;
   bool is_worth(const Patch& now, const BadPlace& place, double largest_near, const PatchBudget& budget) const;
   bool set_bar_by_moves(const Patch& now, Bar& bar);
-  std::span<Runner> best_of(std::vector<Runner>& all, std::size_t few) const;
+  static std::span<Runner> best_of(std::vector<Runner>& all, std::size_t most);
   void try_operations(const Patch& now, const BadPlace& place, const PatchBudget& budget, Bar& bar);
   bool is_within(GlobalId may_insert, const PatchBudget& budget) const;
   void relax_near(const Patch& now, Patch& trial, std::span<const LocalIndex> near);
@@ -101,6 +101,7 @@ private:
   int strain_added(const Patch& now, const PatchOperation& operation);
   double last_sweeps(const Patch& now, const Runner& finalist, Patch& trial, double hopeless_sum);
   void finish(const Patch& now, Runner& finalist, Bar& bar);
+  void try_pairs(const BadPlace& place, const PatchBudget& budget, Bar& bar);
   void try_refining(const Patch& now, const BadPlace& place, const PatchBudget& budget, Bar& bar);
 
   double operate_alpha_;
@@ -111,6 +112,7 @@ private:
   PatchOperations operations_;
   PatchScore score_;
   Patch trial_, best_;
+  std::vector<Patch> first_of_two_;         // results of first operations, to which second ones are added
   std::vector<Runner> runners_, finalists_; // ordered by sum
   bool is_thorough_ = false;                // true if the triangle is bad enough for many complete trials
   bool is_against_obtuse_ = false;

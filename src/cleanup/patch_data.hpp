@@ -85,6 +85,7 @@ struct PatchBudget {
   double again_alpha =
       CleanupRules::again_alpha; ///< in that case, operations are tried for triangles with a larger alpha
   double obtuse_weight = 0; ///< above 0: only obtuse triangles are tried, and this is what each of them costs in a sum
+  bool is_last = false;     ///< whether no other stage follows; then more trials run to their end
   double deletion_handicap = 1; ///< factor on the sum of a trial with fewer sites: above 1 if sites are scarce
 };
 

@@ -188,6 +188,10 @@ struct CleanupRules {
   /// [h] As near_reach and score_reach, in the stages against obtuse triangles: a row of triangles that is shifted
   /// along the boundary needs a wide surrounding to adapt.
   static constexpr double near_reach_if_obtuse = 4, score_reach_if_obtuse = 5.3;
+  /// [operations] As runners and finalists, in the last of these stages.
+  static constexpr std::size_t runners_at_last = 16, finalists_at_last = 10;
+  /// [operations] How many are followed by a second operation in the last of these stages, if none helps alone.
+  static constexpr std::size_t first_of_two = 3;
   /// [sweeps] Largest number of last sweeps of a trial in these stages.
   static constexpr int obtuse_sweeps = 14;
   /// [alpha] An operation that removes an obtuse triangle may leave other triangles up to this alpha.
@@ -218,6 +222,9 @@ struct CleanupRules {
   /// [1] Share of the sites reserved until the last stage, for places where only smaller triangles help. Measured: on
   /// North America with 17000 points the largest alpha fell from 1.61 to 1.38, compared with a smaller share.
   static constexpr double reserved = 0.006;
+  /// [1] Share of the sites reserved for the stages against obtuse triangles. A coast that uses all its sites before
+  /// has none left to repair these.
+  static constexpr double reserved_for_obtuse = 0.0005;
   /// [sites] Number that a patch may add or remove within the limits; for smaller triangles it may add most_refined
   /// more. It does not depend on the number of patches, so a round need not count them first. Measured: with 20000
   /// points all shipped configs give the meshes that equal shares of the rest gave.

@@ -50,6 +50,21 @@ TEST(CleanupCandidates, TheWorstOfACellContendsAndOfEquallyBadOnesTheFirst) {
   EXPECT_EQ(candidates.worst(), 1);
 }
 
+TEST(CleanupCandidates, InTheLastStagesOnlyThoseWithAnObtuseTriangleContend) {
+  const mesh::TileGrid grid = unit_grid();
+  CleanupCandidates candidates(grid);
+  const Vec2 worse{0.5001, 0.5001}, obtuse{0.5003, 0.5001}; // of one cell
+  candidates.set({worse, h, 1.4});
+  candidates.set({obtuse, h, 1.3, true});
+  const CleanupCandidates::ContenderRule rule{4, 0, 10, 1, 0, true};
+  EXPECT_EQ(places_of(candidates.contenders(first_round())), std::vector{worse});
+  EXPECT_EQ(places_of(candidates.contenders(rule)), std::vector{obtuse});
+  candidates.settle(obtuse, 4);
+  EXPECT_TRUE(candidates.contenders(rule).empty());
+  candidates.set({obtuse, h, 1.3, false}); // it has become acute
+  EXPECT_TRUE(candidates.contenders({5, 0, 10, 1, 0, true}).empty());
+}
+
 TEST(CleanupCandidates, WhereNothingHelpedIsTriedAgainInTheNextStageAlone) {
   const mesh::TileGrid grid = unit_grid();
   CleanupCandidates candidates(grid);

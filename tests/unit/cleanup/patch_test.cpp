@@ -85,6 +85,55 @@ TEST(PatchOptimizer, ChangesNothingNearTheRimHoweverSmallTheTrianglesThere) {
     EXPECT_LT(geometry::length(edit.from - displaced), (CleanupRules::reach - CleanupRules::free_depth) * h);
 }
 
+/// Obtuse triangles among the sites, after edits.
+int obtuse_triangles(const Stage& stage, const std::vector<SiteEdit>& edits) {
+  PatchMesh mesh(unit_lattice(), {});
+  mesh.start(middle, 4);
+  for (const PatchSite& site : stage.sites)
+    if (std::none_of(edits.begin(), edits.end(),
+                     [&](const SiteEdit& edit) { return edit.kind != Kind::insert && edit.from == site.position; }))
+      mesh.insert(site.position);
+  for (const SiteEdit& edit : edits)
+    if (edit.kind != Kind::remove)
+      mesh.insert(edit.to);
+  int count = 0;
+  for (const PatchMesh::Triangle& triangle : mesh.triangles()) {
+    const auto& [a, b, c] = triangle.vertex;
+    if (std::min(a, std::min(b, c)) < PatchMesh::frame)
+      continue;
+    const Vec2 p = mesh.position(a), q = mesh.position(b), r = mesh.position(c);
+    count += geometry::length((1.0 / 3) * (p + q + r) - middle) < 5 * h && mesh::is_obtuse(p, q, r);
+  }
+  return count;
+}
+
+TEST(PatchOptimizer, RemovesObtuseTriangles) {
+  for (const double weight : CleanupRules::obtuse_weight)
+    for (const Vec2 away : {Vec2{0.45, 0.1}, {-0.3, 0.4}, {0, -0.5}}) {
+      Stage stage(far_square());
+      stage.budget.is_again = true;
+      stage.budget.obtuse_weight = weight;
+      stage.budget.is_last = weight == CleanupRules::obtuse_weight.back();
+      add_lattice(stage);
+      stage.take_nearest(middle);
+      const Vec2 displaced = unit_lattice().snap(middle + h * away);
+      stage.add(displaced);
+      EXPECT_GT(obtuse_triangles(stage, {}), 0);
+      EXPECT_EQ(obtuse_triangles(stage, stage.improve(displaced)), 0);
+    }
+}
+
+TEST(PatchOptimizer, LeavesBadTrianglesAloneInTheStagesAgainstObtuseOnes) {
+  Stage stage(far_square());
+  const Vec2 displaced = add_displaced_lattice(stage);
+  EXPECT_GT(worst_alpha(stage, {}, middle, 3 * h), CleanupRules::bad_alpha);
+  EXPECT_EQ(obtuse_triangles(stage, {}), 0);
+  EXPECT_FALSE(stage.improve(displaced).empty());
+  stage.budget.is_again = true;
+  stage.budget.obtuse_weight = CleanupRules::obtuse_weight.back();
+  EXPECT_TRUE(stage.improve(displaced).empty());
+}
+
 TEST(PatchOptimizer, DeletesOneTooMany) {
   Stage stage(far_square());
   stage.options.bad_alpha = stage.options.operate_alpha = 1.02;

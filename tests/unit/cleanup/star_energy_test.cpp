@@ -46,6 +46,36 @@ std::vector<Star> stars() {
   return all;
 }
 
+/// One of the angles of the star is steep: the apex of a right-angled triangle, and places around it.
+TEST(SteepEnergy, GradientIsThatOfTheDifferences) {
+  const std::vector<Vec2> ring{{1, 0}, {0.9, 1.1}, {0, 1}, {-1, 0.1}};
+  int steep = 0;
+  for (std::uint64_t k = 0; k < 40; ++k) {
+    const Vec2 p = 0.2 * (testing::random_vec2(11, k) - Vec2{0.5, 0.5}) + Vec2{0, -0.1};
+    const auto energy = [&](double x, double y) { return steep_energy(p + Vec2{x, y}, ring, false); };
+    EnergyModel model;
+    add_steep_energy(model, p, ring, false);
+    constexpr double d = 1e-6;
+    EXPECT_EQ(model.value, energy(0, 0));
+    EXPECT_NEAR(model.gradient.x, (energy(d, 0) - energy(-d, 0)) / (2 * d), 1e-4 * (1 + model.xx));
+    EXPECT_NEAR(model.gradient.y, (energy(0, d) - energy(0, -d)) / (2 * d), 1e-4 * (1 + model.yy));
+    EXPECT_GE(model.xx, 0);
+    EXPECT_GE(model.xx * model.yy - model.xy * model.xy, -1e-9 * model.xx * model.yy) << "the convex part alone";
+    steep += model.value > 0;
+  }
+  EXPECT_GT(steep, 5);
+}
+
+TEST(SteepEnergy, IsThatOfTheAnglesAboveItsLimitAlone) {
+  EXPECT_EQ(steep_energy({}, hexagon(), true), 0);
+  const std::vector<Vec2> legs{{1, 0}, {0, 1}}; // a right angle at the origin: its cotangent is 0
+  EXPECT_NEAR(steep_energy({}, legs, false), CleanupRules::steep_weight * std::pow(CleanupRules::steep_cotangent, 2),
+              1e-15);
+  const std::vector<Vec2> diagonal{{1, 1}, {-1, 1}};
+  EXPECT_GT(steep_energy({0, 0.1}, diagonal, false), steep_energy({0, 0}, diagonal, false)) << "nearer is more obtuse";
+  EXPECT_EQ(steep_energy({0, -0.1}, diagonal, false), 0) << "84.6 degrees";
+}
+
 TEST(StarEnergy, DerivativesAreThoseOfTheDifferences) {
   for (const Star& star : stars()) {
     const auto energy = [&](double x, double y) { return star_energy(star.p + Vec2{x, y}, star.ring, star.closed); };
