@@ -30,6 +30,9 @@ void check_choice_of_component(const geometry::Boundary& boundary, const Feature
 /// component around a hole
 void drop_other_components(const geometry::Boundary& boundary, const FeatureRule& rule, polygon::DroppedLoops& dropped);
 
+/// Returns whether p is inside by the even-odd rule. O(pieces)
+bool lies_within(std::span<const geometry::Loop> loops, geometry::Vec2 p);
+
 /// Signed, counter-clockwise positive; arcs included. O(pieces) @pre the loop does not wind around the container
 double enclosed_area(const geometry::Loop& loop);
 

@@ -25,14 +25,17 @@ public:
   struct Corner {
     geometry::Vec2 place;
     double degrees = 0;
+    geometry::Vec2 ahead{}, back{}; ///< its two chords
   };
-  /// @brief Returns the corner nearest to the vertices of a triangle, within 3 of its longest edges. Of equally near
+  /// @brief Returns the corner nearest to the vertices of a triangle, within 3 of its longest edges. A corner farther
+  /// away counts if a vertex lies between its arms, where these are less than the longest edge apart. Of equally near
   /// ones it returns the first in lexicographic order. O(corners in a strip of this width).
   Corner near(geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r) const;
 
 private:
   const geometry::Periods& periods_;
   std::vector<Corner> corners_; // in lexicographic order
+  double sharpest_ = 90;        // degrees
 };
 
 /// Counts bad triangles and lists the worst, by alpha and then by place. Objects may be merged in any order.

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The boundary that is meshed: that of the shape, with what the run adds to it and takes from it; and an estimate of
-// what a run will do to the shape.
+// The boundary that is meshed: that of the shape, with what the run adds to it and takes from it.
 #pragma once
 
 #include "boundary/fixed_points.hpp"
 #include "meshing/run_context.hpp"
 #include "polygon/polygon.hpp"
-#include "trime/meshing/mesher.hpp"
 #include "trime/polygon/loop_summary.hpp"
 
 #include <memory>
@@ -39,8 +37,5 @@ private:
   geometry::Boundary remaining_; // the curves without the dropped loops; unused if none was dropped
   bool drops_loops_ = false;
 };
-
-/// See Mesher::outlook. Collective.
-Outlook look_ahead(const RunContext& run);
 
 } // namespace trime::meshing

@@ -25,6 +25,7 @@ struct DroppedLoops {
   int others = 0;         ///< components that are left out since one was asked for; not among `components`
   double others_area = 0; ///< their area, without their holes
   double change = 0;      ///< change of the shape's area: lakes minus islands
+  std::vector<geometry::Loop> other_loops; ///< the loops of the other components
   bool any() const { return components + holes + others > 0; }
 };
 

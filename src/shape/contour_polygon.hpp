@@ -15,7 +15,8 @@ namespace trime::shape {
 /// @param warnings receives a sentence for each ring with vertices that became equal on the lattice
 /// @throws GeometryError see Part::contour
 Polygon make_contour_polygon(const contours::Contour& contour, const contours::Normalization& normalization,
-                             const geometry::Frame& frame, std::vector<std::string>& warnings);
+                             const geometry::Frame& frame, std::vector<std::string>& warnings,
+                             const TouchOptions& touches = {});
 
 /// @brief Makes a polygon from one ring that is known to be simple. @pre it has at least three vertices, which are not
 /// collinear

@@ -6,6 +6,7 @@
 #include "trime/core/types.hpp"
 #include "trime/geometry/lattice.hpp"
 #include "trime/geometry/segment_grid.hpp"
+#include "trime/shape/part.hpp"
 
 #include <array>
 #include <vector>
@@ -54,11 +55,13 @@ struct RingTouch {
 /// @brief Separates rings where a vertex lies on another vertex or on an edge, and rings do not cross.
 ///
 /// The area stays the same. Each of its sectors around the place gets a separate vertex. One of these vertices stays,
-/// and the others move into their sectors by ShapeRules::touch_gap. So the area is never connected through the place. A
+/// and the others move into their sectors. So the area is never connected through the place. A
 /// hole that touches its outer ring becomes a bay, and a ring that pinches the area becomes two rings. Where edges
 /// overlap or rings cross, nothing is changed, and find_meetings finds them again.
-/// @param meetings all meetings @param grid the grid of segments_of(rings)
+/// @param meetings all meetings @param grid the grid of segments_of(rings) @param options the gap is at least
+/// ShapeRules::touch_gap steps of the lattice
 std::vector<RingTouch> part_touches(std::vector<LatticeRing>& rings, const std::vector<SegmentPair>& meetings,
-                                    const geometry::SegmentGrid& grid, const geometry::Frame& frame);
+                                    const geometry::SegmentGrid& grid, const geometry::Frame& frame,
+                                    const TouchOptions& options);
 
 } // namespace trime::shape

@@ -17,15 +17,19 @@
 
 namespace trime::meshing {
 
-/// An estimate of MeshResult::features, and the resolution at which nothing would be simplified.
+/// What MeshResult::features will be, and the resolution at which nothing would be simplified.
 struct Outlook {
-  boundary::FeatureReport features;
+  boundary::FeatureReport
+      features;           ///< as a run would report when it begins its last stage; an estimate above 1e5 points
   bool keeps_all = false; ///< nothing is simplified or dropped
-  /// Number of points that keep everything, about; a lower bound if not `is_enough`.
+  /// A number of points that keeps everything; a lower bound if not `is_tried`. 0 without advice.
   double keeping_points = 0;
-  double keeping_edge_length = 0; ///< mean edge length of that many points
-  bool is_enough = false;
+  bool is_tried = false;          ///< the boundary was laid out for that number, and nothing was simplified
+  double keeping_edge_length = 0; ///< a tried edge length that keeps everything, if the size is uniform; otherwise 0
 };
+
+/// Says whether an outlook looks for a number of points that keeps everything.
+enum class Advice { no, yes };
 
 /// The mesh in the middle of a run; valid during the call of the observer.
 struct Snapshot {
@@ -74,7 +78,7 @@ public:
   /// @brief Estimates what run() will do to the boundary, without making a mesh. Takes as long as the start of a mesh
   /// of 10^5 points, and at most 12 simplifications of the boundary. @note Collective.
   /// @throws as run
-  Outlook outlook() const;
+  Outlook outlook(Advice advice = Advice::yes) const;
 
 private:
   class Implementation;

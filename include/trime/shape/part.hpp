@@ -41,6 +41,13 @@ std::array<geometry::Vec2, 4> quadrant_vertices(const Circle& circle);
 /// @brief Returns the counter-clockwise arc of `circle` from a to b, less than a full turn.
 geometry::Piece make_arc(const Circle& circle, geometry::Vec2 a, geometry::Vec2 b);
 
+/// How rings of a contour are separated where they touch.
+struct TouchOptions {
+  bool outside = false; ///< the contour is subtracted: what lies around it is separated there, and not its area
+  double gap = 0; ///< distance between the separated vertices, if the rings leave room for it; at least 1e-12 of the
+                  ///< container
+};
+
 /// One named part. Immutable.
 class Part {
 public:
@@ -57,12 +64,13 @@ public:
   /// nesting decides which rings are holes.
   ///
   /// Takes O(M log M) for M vertices; the test for crossings uses all threads. Rings that touch at a vertex are
-  /// separated there by about 1e-12 of the container, and the area does not reach through the gap. A ring given twice
-  /// is used once. Warnings report both.
+  /// separated there by about 1e-12 of the container, or as `touches` say, and the area does not reach through the gap.
+  /// A ring given twice is used once. Warnings report both.
   /// @throws GeometryError `source:line: ...` if rings cross or overlap along edges, enclose no area, or leave
   /// frame.reach()
   static Part contour(const std::string& name, const contours::Contour& contour,
-                      const contours::Normalization& normalization, const geometry::Frame& frame);
+                      const contours::Normalization& normalization, const geometry::Frame& frame,
+                      const TouchOptions& touches = {});
   /// @brief Makes a part of a polygon that is on the lattice already. @param warnings for the user, one sentence each
   static Part polygon(const std::string& name, Polygon polygon, std::vector<std::string> warnings = {});
 
