@@ -22,6 +22,7 @@ trime_test_packages=(
   python3-mpi4py                                  # Python programs that mpirun starts
   python3-qgis qgis-providers                     # reads .2dm; 99 packages, 424 MB: without it one test is skipped
   gdal-bin python3-gdal                           # reads and writes maps: ogr2ogr, ogrinfo; Python too
+  gmt-gshhg-full                                  # coasts of full resolution; 42 MB: without it one test is skipped
   python3-scipy gmsh                              # Poisson's equation, on meshes of Gmsh too, judge.py; benchmark.py --gmsh;
                                                   # scaling.py --model
   libpetsc-real-dev metis scotch                  # the PETSc example (the rest of PETSc comes with dolfinx); edge_cut.py

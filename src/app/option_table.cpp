@@ -272,8 +272,10 @@ const Option table[] = {
      .fallback = "5",
      .range = {1, 1e300},
      .meaning =
-         "largest alpha (circumradius over twice the inradius) of a good mesh: if a triangle has a larger alpha, and "
-         "no corner below 60 degrees is within 3 edges of it, the file is marked as incomplete and the exit code is 5"},
+         "largest alpha (circumradius over twice the inradius) of a good mesh: if a triangle has a larger alpha, the "
+         "file is marked as incomplete and the exit code is 5. Triangles within 3 edges of a corner below 60 degrees, "
+         "or "
+         "between its arms where these are less than an edge apart, are excused"},
     {.section = "meshing",
      .key = "seed",
      .kind = OptionKind::integer,

@@ -13,6 +13,7 @@
 #include "app/shape_builder.hpp"
 #include "app/size_builder.hpp"
 #include "app/stop_file.hpp"
+#include "boundary/feature_rule.hpp"
 #include "boundary/fixed_points.hpp"
 #include "core/processors.hpp"
 #include "core/state_fields.hpp"
@@ -98,25 +99,31 @@ std::string estimate(const RunOptions& options, const geometry::Boundary& bounda
   return text + fmt::format("output: {} (not written)", options.output.file.path(".h5"));
 }
 
-/// A count with two digits that matter: 513.7 becomes 510.
-double rounded(double count) {
-  const double unit = std::pow(10, std::max(0.0, std::floor(std::log10(std::max(count, 1.0))) - 1));
-  return std::round(count / unit) * unit;
+/// Prints the warnings that a run would print about the boundary.
+void print_warnings(const boundary::FeatureReport& features, const std::vector<std::string>& part_names, Log& log) {
+  constexpr boundary::Occasion occasion = boundary::Occasion::outlook;
+  for (const PlacedText& warning :
+       {boundary::loss_warning(features, occasion), boundary::body_warning(features, part_names, occasion)})
+    if (!warning.text().empty())
+      log.warning("{}", warning.formatted());
 }
 
 /// Prints what --dry-run finds out about the boundary.
-void print_outlook(const meshing::Outlook& outlook, Log& log) {
+void print_outlook(const meshing::Outlook& outlook, const std::vector<std::string>& part_names, Log& log) {
   for (const PlacedText& line : boundary::describe(outlook.features))
     log.summary("boundary: {}", line.formatted());
+  print_warnings(outlook.features, part_names, log);
   if (outlook.keeps_all) {
     log.summary("no part of the shape is simplified at this size");
     return;
   }
-  if (const PlacedText warning = boundary::loss_warning(outlook.features); !warning.text().empty())
-    log.warning("{}", warning.formatted());
-  log.summary("{} {:.0f} points ({} {:.2g}) keep everything", outlook.is_enough ? "about" : "more than about",
-              rounded(outlook.keeping_points), outlook.is_enough ? "edge_length =" : "edge_length below",
-              outlook.keeping_edge_length);
+  if (outlook.is_tried)
+    log.summary("{:.0f} points keep everything; that was tried", outlook.keeping_points);
+  else
+    log.summary("more than {:.0f} points are needed to keep everything; no number of points was found that does",
+                outlook.keeping_points);
+  if (outlook.keeping_edge_length > 0)
+    log.summary("edge_length = {:g} keeps everything; that was tried", outlook.keeping_edge_length);
 }
 
 /// Throws as the run would.
@@ -199,6 +206,7 @@ ShapeInput read_input(const Job& job) {
         box.min.x, box.max.x, box.min.y, box.max.y);
   job.log.set_rewriter([&places = job.places](const PlacedText& message) { return places.explain(message); });
   input.set_fixed_points(read_fixed_points(options, input, job.comm));
+  boundary::check_choice_of_component(input.boundary(), placed_options(options, input, job.comm).features);
   return input;
 }
 
@@ -259,11 +267,11 @@ ExitCode MeshRun::preview() {
   check_share(points_, placement_.ranks);
   Log quiet(LogLevel::error, job_.comm.is_root()); // its warnings were printed before
   const meshing::Mesher mesher(job_.comm, input_.domain(), *size_.field, mesh_, quiet, job_.timers);
-  const meshing::Outlook outlook = mesher.outlook();
+  const meshing::Outlook outlook = mesher.outlook(is_dry_run ? meshing::Advice::yes : meshing::Advice::no);
   if (is_dry_run)
-    print_outlook(outlook, job_.log);
-  else if (const PlacedText warning = boundary::loss_warning(outlook.features); !warning.text().empty())
-    job_.log.warning("{}", warning.formatted());
+    print_outlook(outlook, boundary().part_names, job_.log);
+  else
+    print_warnings(outlook.features, boundary().part_names, job_.log);
   return ExitCode::done;
 }
 

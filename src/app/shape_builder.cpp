@@ -3,6 +3,7 @@
 
 #include "comm/agree.hpp"
 #include "core/read_file.hpp"
+#include "fitting/points_of_length.hpp"
 #include "trime/shape/region_shape.hpp"
 #include "trime/shape/traced_part.hpp"
 #include "trime/tracing/shape.hpp"
@@ -14,17 +15,25 @@
 namespace trime::app {
 namespace {
 
+// [h] Where nothing is simplified, rings that touch are separated by this: triangles around the gap are about as small.
+constexpr double kept_gap = 0.1;
+
 std::string hint_of(bool is_relative) {
   return is_relative ? " (relative to the config file, not to the working directory)" : "";
+}
+
+/// @throws ConfigError if it cannot be parsed
+shape::Region region_of(const RunOptions& options) {
+  std::vector<std::string> names;
+  for (const PartOptions& part : options.parts)
+    names.push_back(part.name);
+  return shape::Region::parse(options.geometry, names);
 }
 
 /// Returns the options without the parts that nothing depends on, which may lie anywhere: the config has warned of
 /// them. @throws ConfigError if the region cannot be parsed
 RunOptions with_used_parts(const RunOptions& options) {
-  std::vector<std::string> names;
-  for (const PartOptions& part : options.parts)
-    names.push_back(part.name);
-  const std::vector<int> found = shape::Region::parse(options.geometry, names).parts();
+  const std::vector<int> found = region_of(options).parts();
   RunOptions used = options;
   used.parts.clear();
   for (int k = 0; k < static_cast<int>(options.parts.size()); ++k) {
@@ -77,20 +86,28 @@ geometry::Box box_of(const PartOptions& part, const contours::Contour& contour) 
 
 /// The container where the options give no side.
 geometry::Box automatic_container(const RunOptions& options, std::span<const contours::Contour> contours) {
-  std::vector<std::string> names;
   std::vector<geometry::Box> boxes;
   for (std::size_t k = 0; k < options.parts.size(); ++k) {
     const PartOptions& part = options.parts[k];
-    names.push_back(part.name);
     boxes.push_back(part.type == "expression" || part.normalize ? geometry::unit_square : box_of(part, contours[k]));
   }
   boxes.push_back(geometry::unit_square); // the domain
-  return geometry::container_around(shape::Region::parse(options.geometry, names).box(boxes));
+  return geometry::container_around(region_of(options).box(boxes));
+}
+
+/// By the size of the triangles: if nothing is simplified, nothing widens a gap later.
+double touch_gap(const RunOptions& options, const geometry::Box& container) {
+  const boundary::FeatureOptions& features = options.mesh.features;
+  if (!features.keep_all && features.within > 0)
+    return 0;
+  const double h = options.mesh.edge_length.value_or(fitting::estimated_size(
+      container.width() * container.height(), 0, static_cast<double>(options.mesh.points.value_or(1000))));
+  return kept_gap * h;
 }
 
 /// @param contour of a part that is one @param place what its vertices undergo
 shape::Part build_part(const PartOptions& part, const contours::Contour& contour, const contours::Normalization& place,
-                       const geometry::Frame& frame) {
+                       const geometry::Frame& frame, const shape::TouchOptions& touches) {
   if (part.type == "rectangle")
     return shape::Part::rectangle(part.name, part.box, frame);
   if (part.type == "circle")
@@ -101,7 +118,7 @@ shape::Part build_part(const PartOptions& part, const contours::Contour& contour
     const Formula sdf(part.sdf, fmt::format("'sdf' in [shape.{}]", part.name));
     return shape::traced_part(part.name, tracing::ExpressionShape(sdf), frame);
   }
-  return shape::Part::contour(part.name, contour, place, frame);
+  return shape::Part::contour(part.name, contour, place, frame, touches);
 }
 
 } // namespace
@@ -124,6 +141,7 @@ ShapeInput read_shape(const RunOptions& given, ShapeUse use, const comm::Communi
   const geometry::Box container =
       options.container_is_automatic ? automatic_container(options, contours) : options.container;
   const geometry::Frame frame(container, options.periodic_x, options.periodic_y);
+  const shape::Region region = region_of(options);
   std::vector<shape::Part> parts;
   contours::Normalization fixed_points_place;
   std::vector<NormalizedPart> normalized;
@@ -133,7 +151,8 @@ ShapeInput read_shape(const RunOptions& given, ShapeUse use, const comm::Communi
     contours::Normalization place;
     if (part.normalize)
       place = contours::fit_to_container(contours[k], frame.container());
-    parts.push_back(build_part(part, contours[k], place, frame));
+    parts.push_back(build_part(part, contours[k], place, frame,
+                               {region.subtracts(static_cast<int>(k)), touch_gap(options, container)}));
     if (part.type == "contour" && comm.is_root())
       found.add(contours[k], place);
     contours[k] = {};

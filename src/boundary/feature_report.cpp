@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "boundary/feature_report.hpp"
 
+#include "boundary/changed_bodies.hpp"
 #include "boundary/loop_fates.hpp"
 #include "boundary/rules.hpp"
 #include "core/angle.hpp"
@@ -123,6 +124,50 @@ std::string lost_loops(const FeatureReport& report) {
   return text;
 }
 
+/// The fates of all loops. Those of components that are left out on purpose are not lost.
+std::vector<LoopFate> fates_of(const geometry::Boundary& given, const geometry::Boundary& meshed,
+                               const std::vector<geometry::Loop>& others, const sizing::SizeField& asked,
+                               const geometry::Lattice& lattice) {
+  if (others.empty())
+    return find_loop_fates(given, meshed, asked, lattice);
+  geometry::Boundary all = meshed;
+  all.loops.insert(all.loops.end(), others.begin(), others.end());
+  std::vector<LoopFate> fates = find_loop_fates(given, all, asked, lattice);
+  const auto is_other = [&](std::int32_t tag) {
+    return std::any_of(others.begin(), others.end(), [tag](const geometry::Loop& loop) { return loop.tag == tag; });
+  };
+  for (LoopFate& fate : fates) {
+    if (std::erase_if(fate.tags, is_other) == 0)
+      continue;
+    if (fate.tags.empty()) {
+      fate.state = LoopFate::State::left_out;
+      fate.remaining_length = fate.largest_deviation = fate.deviation = 0;
+    } else if (fate.state == LoopFate::State::split && fate.tags.size() == 1) {
+      fate.state = LoopFate::State::simplified;
+    }
+  }
+  return fates;
+}
+
+/// Sets the place and the length of the longest loop that is lost.
+void find_longest_lost(const geometry::Boundary& given, const sizing::SizeField& asked, FeatureReport& report) {
+  double longest = 0;
+  for (const LoopFate& fate : report.loops)
+    if (fate.is_lost() && fate.length > longest) {
+      longest = fate.length;
+      report.lost_place = fate.place;
+      report.lost_perimeter = longest / sizing::checked_size(asked, given.periods.wrap(fate.place));
+    }
+}
+
+/// Is anything lost, added, cut or split, apart from the components that are left out on purpose?
+bool loses_unasked(const FeatureReport& report) {
+  return report.severed > 0 || report.components + report.other_components != report.given_components ||
+         std::fmax(report.lost_share - report.other_share, report.added_share) > BoundaryRules::warned_loss ||
+         std::any_of(report.loops.begin(), report.loops.end(),
+                     [](const LoopFate& fate) { return fate.is_lost() || fate.state == LoopFate::State::split; });
+}
+
 } // namespace
 
 FeatureReport report_features(const BoundarySites& boundary, std::span<const sizing::SizeLimit> limits,
@@ -175,16 +220,12 @@ void report_losses(const geometry::Boundary& given, const geometry::Boundary& me
   report.given_holes = given.holes();
   report.components = meshed.components();
   report.holes = meshed.holes();
+  report.given_area = given.area;
   report.lost_share = lost / given.area;
   report.added_share = added / given.area;
-  report.loops = find_loop_fates(given, meshed, asked, lattice);
-  double longest = 0;
-  for (const LoopFate& fate : report.loops)
-    if (fate.is_lost() && fate.length > longest) {
-      longest = fate.length;
-      report.lost_place = fate.place;
-      report.lost_perimeter = longest / sizing::checked_size(asked, given.periods.wrap(fate.place));
-    }
+  report.loops = fates_of(given, meshed, dropped.other_loops, asked, lattice);
+  measure_reach(given, meshed, report.loops);
+  find_longest_lost(given, asked, report);
 }
 
 bool changes_topology(const FeatureReport& report) {
@@ -193,7 +234,7 @@ bool changes_topology(const FeatureReport& report) {
                      [](const LoopFate& fate) { return fate.is_lost() || fate.state == LoopFate::State::split; });
 }
 
-PlacedText loss_warning(const FeatureReport& report) {
+PlacedText loss_warning(const FeatureReport& report, Occasion occasion) {
   if (!changes_topology(report) && !(std::fmax(report.lost_share, report.added_share) > BoundaryRules::warned_loss))
     return PlacedText("");
   std::string text = changed_numbers(report);
@@ -207,11 +248,15 @@ PlacedText loss_warning(const FeatureReport& report) {
         fmt::format(". The simplification is that for triangles {:.2g} times as large: keeping more would take more "
                     "points than were asked for",
                     report.coarseness);
-  text += ". More points (a smaller edge_length) keep more, and --dry-run says how many keep everything. ";
-  if (report.components > report.given_components && report.severed == 0)
-    text += "A smaller meshing.simplify_within keeps narrow connections. ";
-  return PlacedText(text + "meshing.keep_features = true keeps everything, however many points that takes. The table "
-                           "/trime_mpi/rings in the file says what became of each loop");
+  if (loses_unasked(report)) {
+    text += ". More points (a smaller edge_length) keep more, and --dry-run tries how many keep everything. ";
+    if (report.components > report.given_components && report.severed == 0)
+      text += "A smaller meshing.simplify_within keeps narrow connections. ";
+    text += "meshing.keep_features = true keeps everything, however many points that takes";
+  }
+  if (occasion == Occasion::run)
+    text += ". The table /trime_mpi/rings in the file says what became of each loop";
+  return PlacedText(text);
 }
 
 std::vector<PlacedText> describe(const FeatureReport& report) {

@@ -242,10 +242,15 @@ void drop_other_components(const geometry::Boundary& boundary, const FeatureRule
       continue;
     const double area = enclosed_area(boundary.loops[k]);
     dropped.dropped[k] = 1;
+    dropped.other_loops.push_back(boundary.loops[k]);
     dropped.others += boundary.loops[k].outer;
     dropped.others_area += area;
     dropped.change -= area;
   }
+}
+
+bool lies_within(std::span<const Loop> loops, Vec2 p) {
+  return std::count_if(loops.begin(), loops.end(), [p](const Loop& loop) { return Enclosure(loop).contains(p); }) % 2;
 }
 
 geometry::Boundary boundary_without(const geometry::Boundary& boundary, const DroppedLoops& dropped) {

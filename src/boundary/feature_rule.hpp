@@ -31,6 +31,9 @@ void check_choice_of_component(const geometry::Boundary& boundary, const Feature
 /// container. Cost: O(pieces) for each component around a hole.
 void drop_other_components(const geometry::Boundary& boundary, const FeatureRule& rule, polygon::DroppedLoops& dropped);
 
+/// Returns whether p is inside by the even-odd rule. O(pieces)
+bool lies_within(std::span<const geometry::Loop> loops, geometry::Vec2 p);
+
 /// Returns the area that a loop encloses, with exact arcs; positive if the loop is counter-clockwise. Cost: O(pieces).
 /// @pre the loop does not wind around the container
 double enclosed_area(const geometry::Loop& loop);

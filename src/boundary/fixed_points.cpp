@@ -2,6 +2,7 @@
 #include "boundary/fixed_points.hpp"
 
 #include "boundary/cornered_boundary.hpp"
+#include "boundary/feature_rule.hpp"
 #include "boundary/rules.hpp"
 #include "core/thread_loop.hpp"
 #include "trime/core/error.hpp"
@@ -140,10 +141,15 @@ const std::string& FixedPoints::label(Vec2 p) const {
   return given_[source_[static_cast<std::size_t>(found - all_.begin())]].label;
 }
 
-void FixedPoints::check_inside(const BoundaryGuard& guard) const {
+void FixedPoints::check_inside(const BoundaryGuard& guard, std::span<const geometry::Loop> left_out) const {
   for (const Vec2 p : inside_) {
     if (guard.inside(p))
       continue;
+    if (lies_within(left_out, p))
+      throw GeometryError(fmt::format("{}: the fixed point {} lies in a component of the shape that "
+                                      "meshing.components leaves out; expected a point in the component that is "
+                                      "meshed. Take the point out, or set components = all",
+                                      label(p), Place(p)));
     const geometry::PieceTree pieces(cornered_boundary());
     double distance = std::numeric_limits<double>::infinity();
     for (const Vec2 shift : images_of(given_boundary_.periods))

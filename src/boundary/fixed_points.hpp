@@ -42,8 +42,10 @@ public:
   const geometry::Boundary& cornered_boundary() const { return cornered_ ? *cornered_ : given_boundary_; }
 
   /// Checks that all fixed points lie inside the shape.
-  /// @throws GeometryError for the first point outside, with its label and its distance
-  void check_inside(const polygon::BoundaryGuard& guard) const;
+  /// @param left_out loops of components that are left out on purpose
+  /// @throws GeometryError for the first point outside the shape or in such a component, with its label and its
+  /// distance
+  void check_inside(const polygon::BoundaryGuard& guard, std::span<const geometry::Loop> left_out = {}) const;
   /// Returns the number of free sites that place_among would keep.
   std::int64_t count_clear(std::span<const mesh::Site> sites, const sizing::SizeField& size) const;
   /// @brief Removes free sites that are too near to a fixed point, then adds the fixed points that lie in these tiles.

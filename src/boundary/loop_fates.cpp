@@ -154,22 +154,30 @@ private:
       sources[owners[i]] += half;
       sources[owners[(i + 1) % pieces.size()]] += half;
       double& largest = fates_[owners[i]].largest_deviation;
-      if (!loops_.has_piece(pieces[i]))
-        largest = std::fmax(largest, deviation(pieces[i]));
+      if (!loops_.has_piece(pieces[i])) {
+        const Distance far = deviation(pieces[i]);
+        largest = std::fmax(largest, far.in_sizes);
+        fates_[owners[i]].deviation = std::fmax(fates_[owners[i]].deviation, far.length);
+      }
     }
     for (const auto& [source, length] : sources)
       followers_[source].push_back({m, length, sources.size() == 1, false});
   }
 
-  double deviation(const Piece& piece) {
+  struct Distance {
+    double length = 0, in_sizes = 0;
+  };
+  Distance deviation(const Piece& piece) {
     const double length = piece.length();
     const double h = sizing::checked_size(size_, given_.periods.wrap(piece.point(0.5 * length)));
     const int parts = static_cast<int>(std::clamp(std::ceil(length / (BoundaryRules::deviation_step * h)), 2.0,
                                                   static_cast<double>(BoundaryRules::deviation_places)));
-    double largest = 0;
+    Distance largest;
     for (int k = 0; k < parts; ++k) {
       const Vec2 p = k == 0 ? piece.start : piece.point(length * k / parts);
-      largest = std::fmax(largest, loops_.nearest(p).distance / sizing::checked_size(size_, given_.periods.wrap(p)));
+      const double distance = loops_.nearest(p).distance;
+      largest.length = std::fmax(largest.length, distance);
+      largest.in_sizes = std::fmax(largest.in_sizes, distance / sizing::checked_size(size_, given_.periods.wrap(p)));
     }
     return largest;
   }
@@ -236,7 +244,7 @@ private:
 } // namespace
 
 const char* to_string(LoopFate::State state) {
-  constexpr const char* names[] = {"kept", "simplified", "split", "merged", "dropped", "filled"};
+  constexpr const char* names[] = {"kept", "simplified", "split", "merged", "dropped", "filled", "left_out"};
   return names[static_cast<std::size_t>(state)];
 }
 

@@ -48,6 +48,13 @@ struct BoundaryRules {
   static constexpr double told_coarseness = 1.1;
   /// [1] The program warns if a larger share of the shape's area is lost or added. Not measured.
   static constexpr double warned_loss = 0.001;
+  /// [1] The program warns if the area within a loop changes by a larger share of itself. Not measured.
+  static constexpr double warned_area = 0.02;
+  /// [width of the loop: twice its area over its length] It warns if mesh and shape are farther apart. Not measured.
+  static constexpr double warned_deviation = 0.1;
+  /// [diagonal of the box around the loop] It warns if a vertex of the loop is farther from the mesh: a thin tip was
+  /// cut off, which has next to no area. Not measured.
+  static constexpr double warned_reach = 0.05;
   /// [h] Distance along the curve between two samples of the size, which is interpolated between them. A size with
   /// gradient 0.1 changes by 5 % over this distance.
   static constexpr double sample_step = 0.5;

@@ -80,16 +80,39 @@ SharpCorners::SharpCorners(const polygon::BoundarySites& boundary, const geometr
     : periods_(periods) {
   for (LocalIndex k = 0; k < std::ssize(boundary.sites); ++k)
     if (boundary.sites[at(k)].corner)
-      if (const double degrees = inside_angle(boundary, k); degrees < ExtractionRules::sharp_degrees)
-        corners_.push_back({periods.wrap(boundary.sites[at(k)].position), degrees});
+      if (const double degrees = inside_angle(boundary, k); degrees < ExtractionRules::sharp_degrees) {
+        const geometry::Segment out = boundary.chord(k), in = boundary.chord(boundary.sites[at(k)].previous);
+        corners_.push_back({periods.wrap(boundary.sites[at(k)].position), degrees, out.b - out.a, in.a - in.b});
+        sharpest_ = std::fmin(sharpest_, degrees);
+      }
   std::sort(corners_.begin(), corners_.end(),
             [](const Corner& a, const Corner& b) { return lexicographically_less(a.place, b.place); });
 }
 
+namespace {
+
+/// Returns the distance from its tip up to which a wedge of this angle is narrower than a length.
+double depth_of_wedge(double degrees, double width) {
+  return width / (degrees / degrees_per_radian);
+}
+
+/// Does the vertex lie between the arms of the corner, where they are less than `longest` apart? No good triangle has
+/// an edge of that length there.
+bool is_in_wedge(const SharpCorners::Corner& corner, Vec2 from_tip, double longest) {
+  const double depth = length(from_tip);
+  const double slack = ExtractionRules::wedge_slack * depth * (corner.degrees / degrees_per_radian);
+  return depth <= depth_of_wedge(corner.degrees, longest) && dot(corner.ahead + corner.back, from_tip) > 0 &&
+         cross(corner.ahead, from_tip) >= -slack * length(corner.ahead) &&
+         cross(from_tip, corner.back) >= -slack * length(corner.back);
+}
+
+} // namespace
+
 SharpCorners::Corner SharpCorners::near(Vec2 p, Vec2 q, Vec2 r) const {
   const double longest =
       std::sqrt(std::fmax(squared_length(q - p), std::fmax(squared_length(r - q), squared_length(p - r))));
-  const double reach = ExtractionRules::corner_reach * longest;
+  const double edges = ExtractionRules::corner_reach * longest;
+  const double reach = std::fmax(edges, depth_of_wedge(sharpest_, longest));
   Corner best;
   double least = reach * reach;
   for (const Vec2 vertex : {p, q, r})
@@ -98,7 +121,10 @@ SharpCorners::Corner SharpCorners::near(Vec2 p, Vec2 q, Vec2 r) const {
       auto corner = std::lower_bound(corners_.begin(), corners_.end(), x - reach,
                                      [](const Corner& c, double low) { return c.place.x < low; });
       for (; corner != corners_.end() && corner->place.x <= x + reach; ++corner) {
-        const double d = squared_length(periods_.nearest_image(corner->place, vertex) - vertex);
+        const Vec2 from_tip = vertex - periods_.nearest_image(corner->place, vertex);
+        const double d = squared_length(from_tip);
+        if (d > edges * edges && !is_in_wedge(*corner, from_tip, longest))
+          continue;
         if (d < least || (d == least && (best.degrees == 0 || lexicographically_less(corner->place, best.place)))) {
           least = d;
           best = *corner;

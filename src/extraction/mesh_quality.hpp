@@ -26,14 +26,17 @@ public:
   struct Corner {
     geometry::Vec2 place;
     double degrees = 0;
+    geometry::Vec2 ahead{}, back{}; ///< its two chords
   };
   /// @brief Returns the corner nearest to the vertices of a triangle, if it is at most 3 longest edges of the triangle
-  /// away. Of equally near corners it returns the lexicographically first. Cost: O(corners in a strip of this width).
+  /// away. A corner farther away counts if a vertex lies between its arms, where these are less than the longest edge
+  /// apart. Of equally near corners it returns the lexicographically first. Cost: O(corners in a strip of this width).
   Corner near(geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r) const;
 
 private:
   const geometry::Periods& periods_;
   std::vector<Corner> corners_; // in lexicographic order
+  double sharpest_ = 90;        // degrees
 };
 
 /// Counts bad and obtuse triangles and lists the worst, ordered by alpha and then by place. Objects may be merged in

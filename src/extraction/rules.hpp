@@ -19,6 +19,9 @@ struct ExtractionRules {
   /// at equal distances around the corner (shells), and the triangles that adapt to them, reach about as far. Not
   /// measured.
   static constexpr double corner_reach = 3;
+  /// [angle of the corner] A vertex that lies so far outside of the lines along the arms is still between them: the
+  /// arms are chords, and the boundary may bend. Not measured.
+  static constexpr double wedge_slack = 0.5;
 };
 
 } // namespace trime::extraction

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fitting/few_points.hpp"
 
+#include "fitting/points_of_length.hpp"
 #include "fitting/rules.hpp"
 #include "trime/core/error.hpp"
 
@@ -17,6 +18,12 @@ constexpr double many_points = 64;
 // [points asked for] If the count jumps and a trial has less than this share, there is no mesh with this number of
 // points, which is an error.
 constexpr double least_of_jump = 0.5;
+
+// [area of the shape] If the simplified curves enclose more, the triangles are far too large for the shape.
+constexpr double largest_growth = 4;
+
+// [width of the shape] Triangles of this size are not widened.
+constexpr double fitting_size = 2;
 
 } // namespace
 
@@ -68,6 +75,24 @@ TooFewPoints too_few_points(const LayoutContext& context, const Fewest& fewest) 
       "more points, or simplify the shape there",
       *context.options.points, fewest.counted ? "" : "more than ", fewest.points,
       geometry::length(fewest.shortest.b - fewest.shortest.a), Place(place, 6))};
+}
+
+std::optional<TooFewPoints> too_thin(const LayoutContext& context, const Stage& stage) {
+  const geometry::Boundary& given = context.given_boundary;
+  if (!stage.curves || !(stage.curves->area > largest_growth * given.area))
+    return std::nullopt;
+  const double width = 2 * given.area / given.length(), size = fitting_size * width;
+  const std::string growth = fmt::format("for this shape, which is {:.3g} wide on average: with triangles of this size "
+                                         "it would cover {:.3g} times its area",
+                                         width, stage.curves->area / given.area);
+  if (context.options.points)
+    return TooFewPoints{
+        fmt::format("points = {} are too few {}; expected at least about {:.2g} points; use more points, or make the "
+                    "shape wider (are the coordinates in the same unit?)",
+                    *context.options.points, growth, points_of_length(given, size))};
+  return TooFewPoints{fmt::format("edge_length = {} is too long {}; expected at most about {:.2g}; make it shorter, or "
+                                  "make the shape wider (are the coordinates in the same unit?)",
+                                  *context.options.edge_length, growth, size)};
 }
 
 void check_edge_length(const FitOptions& options) {

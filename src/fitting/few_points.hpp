@@ -6,6 +6,7 @@
 #include "sites/stage.hpp"
 
 #include <cmath>
+#include <optional>
 #include <string>
 
 namespace trime::fitting {
@@ -28,6 +29,10 @@ struct Fewest {
 /// Returns the message for the user. @param counted if false, counting ended early, and there are more
 TooFewPoints too_few_points(const LayoutContext& context, double fewest, bool counted = true);
 TooFewPoints too_few_points(const LayoutContext& context, const Fewest& fewest);
+
+/// @brief Says so if the shape is so thin nearly everywhere that the simplified curves of the stage enclose several
+/// times its area: then the mesh would be of another shape.
+std::optional<TooFewPoints> too_thin(const LayoutContext& context, const sites::Stage& stage);
 
 /// Returns true if a trial has less than half of the points asked for, while the boundary needs too many at the next
 /// smaller size. Then there is no mesh with this number of points.

@@ -155,7 +155,8 @@ std::variant<LatticeFit, TooFewPoints> fit_points(const LayoutContext& context, 
     if (options.max_size && h > *options.max_size)
       return too_few_points(context, points_of_largest(context, *options.max_size));
     Fewest fewest;
-    std::optional<Stage> stage = lay_affordable_boundary(context, h / relative, expected, fit.fitted, fewest);
+    FittedSize trial = fit.fitted; // a failed trial leaves the fit of the round before as it is
+    std::optional<Stage> stage = lay_affordable_boundary(context, h / relative, expected, trial, fewest);
     if (!stage && round == 0)
       return too_few_points(context, fewest);
     if (!stage) { // at this spacing the lattice fits into the stage of the round before
@@ -163,6 +164,7 @@ std::variant<LatticeFit, TooFewPoints> fit_points(const LayoutContext& context, 
       return fit;
     }
     fit.stage = std::move(*stage);
+    fit.fitted = std::move(trial);
     fit.runs = {};
     const double laid = fit.spacing = fit.stage.size->size({});
     if (options.min_size && laid > h) {

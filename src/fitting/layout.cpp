@@ -212,7 +212,7 @@ void complete(const LayoutContext& context, Stage& trial, double grid_coarsening
     return;
   comm::run_agreed(context.comm, [&] {
     trial.guard = std::make_unique<BoundaryGuard>(trial.polygon, context.lattice);
-    context.fixed.check_inside(*trial.guard);
+    context.fixed.check_inside(*trial.guard, trial.polygon.dropped.other_loops);
   });
   trial.state = make_state(context, trial.polygon, grid_coarsening * trial.typical_size);
   placing::share_by_density(trial, *trial.size, context.lattice, grid_coarsening);

@@ -37,8 +37,10 @@ std::variant<Found, TooFewPoints> fitted(const LayoutContext& context, double po
     if (TooFewPoints* few = std::get_if<TooFewPoints>(&lattice))
       return std::move(*few);
     const sites::Stage& stage = std::get<LatticeFit>(lattice).stage;
-    return Found{stage.asked_size->size({}) / context.relative_size.size({}),
-                 static_cast<double>(stage.placed_first())};
+    if (!context.options.features.refine_narrow || !fit.needs_lowering(stage))
+      return Found{stage.asked_size->size({}) / context.relative_size.size({}),
+                   static_cast<double>(stage.placed_first())};
+    fit.lower_uniform(); // as the run does
   }
   std::variant<StageFit, TooFewPoints> density = fit.find_density(points, LayoutRules::coarse_integral);
   if (TooFewPoints* few = std::get_if<TooFewPoints>(&density))
@@ -65,7 +67,8 @@ std::variant<double, TooFewPoints> fitted_factor(const LayoutContext& context, d
   return found.factor / (options.points ? scale_for(found.placed_first, fewer - found.placed_first, points) : longer);
 }
 
-/// Is nothing cut, closed, moved, thinned or dropped? Collective.
+} // namespace
+
 bool keeps_all(const LayoutContext& context, double factor) {
   const geometry::Boundary& given = context.fixed.cornered_boundary();
   const bool by_one = one_rank_simplifies(context);
@@ -83,10 +86,10 @@ bool keeps_all(const LayoutContext& context, double factor) {
   return by_one ? context.comm.sum(std::int64_t{keeps}) > 0 : keeps;
 }
 
-/// Down by powers of ten, then halves of the last of them on a logarithmic scale.
+// Down by powers of ten, then halves of the last of them on a logarithmic scale.
 void find_keeping_factor(const LayoutContext& context, LaidOutlook& outlook) {
   const double factor = outlook.factor;
-  const double on_boundary = std::fmax(1, static_cast<double>(outlook.stage.placed_first()));
+  const double on_boundary = std::fmax(1, outlook.placed_first);
   const double least = std::fmin(1 / LayoutRules::outlook_step, on_boundary / LayoutRules::outlook_sites) * factor;
   double low = factor, high = factor; // at `high` something is simplified
   outlook.keeps = context.options.features.keep_all || keeps_all(context, factor);
@@ -103,31 +106,26 @@ void find_keeping_factor(const LayoutContext& context, LaidOutlook& outlook) {
   outlook.keeping_factor = low;
 }
 
-} // namespace
-
 double LaidOutlook::points_at(double other) const {
   const double ratio = factor / other;
-  const double on_boundary = std::fmin(points, static_cast<double>(stage.placed_first()));
+  const double on_boundary = std::fmin(points, placed_first);
   return ratio * (on_boundary + ratio * (points - on_boundary));
 }
 
-LaidOutlook look_ahead(const LayoutContext& given) {
-  const FitOptions& options = given.options;
+sites::Stage look_ahead(const LayoutContext& given, LaidOutlook& outlook) {
   LayoutContext context = given;
-  LaidOutlook outlook;
-  outlook.points = options.points ? static_cast<double>(*options.points)
-                                  : points_of_length(given.given_boundary, *options.edge_length);
   std::variant<double, TooFewPoints> factor = fitted_factor(context, outlook.points);
-  if (std::holds_alternative<TooFewPoints>(factor) && !options.features.keep_all) { // a run goes on like this, too
+  if (std::holds_alternative<TooFewPoints>(factor) &&
+      !given.options.features.keep_all) { // a run goes on like this, too
     context.cuts_thin_components = true;
     factor = fitted_factor(context, outlook.points);
   }
   if (const TooFewPoints* few = std::get_if<TooFewPoints>(&factor))
     throw ConfigError(few->reason);
   outlook.factor = std::get<double>(factor);
-  outlook.stage = Fit(context).try_factor(outlook.factor, outlook.points);
-  find_keeping_factor(context, outlook);
-  return outlook;
+  sites::Stage stage = Fit(context).try_factor(outlook.factor, outlook.points);
+  outlook.placed_first = static_cast<double>(stage.placed_first());
+  return stage;
 }
 
 } // namespace trime::fitting

@@ -10,9 +10,9 @@ namespace trime::fitting {
 
 /// The estimate for a run.
 struct LaidOutlook {
-  sites::Stage stage; ///< boundary sites at about the size of the mesh, without guard and state
-  double factor = 1;  ///< factor of that size
-  double points = 0;  ///< about the number of points
+  double factor = 1;       ///< factor of the size
+  double points = 0;       ///< about the number of points
+  double placed_first = 0; ///< points on the boundary and fixed points among them
   /// Largest factor found at which nothing is simplified, otherwise the smallest factor tried.
   double keeping_factor = 0;
   bool keeps = false; ///< true if everything is kept at that factor
@@ -21,10 +21,17 @@ struct LaidOutlook {
   double points_at(double other) const;
 };
 
-/// @brief Makes the estimate. It fits the size for at most LayoutRules::outlook_points points and scales it. Then it
-/// simplifies the boundary at most LayoutRules::outlook_trials times, down to the size at which it has
-/// LayoutRules::outlook_sites sites. Collective.
+/// @brief Estimates factor and points placed first for `points` of the outlook. It fits the size for at most
+/// LayoutRules::outlook_points points and scales it. Collective.
+/// @return boundary sites at about the size of the mesh, without guard and state
 /// @throws ConfigError if the points are too few for the shape, or the edge length is outside the bounds of the size
-LaidOutlook look_ahead(const LayoutContext& context);
+sites::Stage look_ahead(const LayoutContext& context, LaidOutlook& outlook);
+
+/// Returns whether nothing is cut, closed, moved, thinned or dropped with this factor. Collective.
+bool keeps_all(const LayoutContext& context, double factor);
+
+/// @brief Finds the keeping factor. It simplifies the boundary at most LayoutRules::outlook_trials times, down to the
+/// size at which it has LayoutRules::outlook_sites sites. Collective. @pre the other numbers of the outlook are set
+void find_keeping_factor(const LayoutContext& context, LaidOutlook& outlook);
 
 } // namespace trime::fitting

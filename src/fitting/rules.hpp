@@ -42,6 +42,12 @@ struct LayoutRules {
   static constexpr double outlook_sites = 1e4;
   /// [1] Until everything is kept, the outlook tries sizes that are smaller by this factor. Not measured.
   static constexpr double outlook_step = 10;
+  /// [points] The outlook advises no more points than this, since it tries what it advises. Not measured.
+  static constexpr double advice_points = 1e6;
+  /// [trials] Numbers of points that it tries at most. Not measured.
+  static constexpr int advice_trials = 8;
+  /// [1] The next number that it tries is larger by this factor. Not measured.
+  static constexpr double advice_step = 1.3;
   /// [samples] Number along a side of the box around the shape. The slope of the size is measured between two samples.
   /// Not measured.
   static constexpr int slope_samples = 64;

@@ -103,8 +103,11 @@ void hold_joining_parts(const CurveMap& map, const std::vector<char>& given, con
       }
     }
   }
-  if (!choice.keeps_joining)
+  if (!choice.keeps_joining) {
+    if (!plan.changed.empty() && plan.changed.front().inside)
+      plan.rest = std::move(verdict.loose); // else a few triangles would stay between two cuts
     return;
+  }
   plan.rest = std::move(verdict.rest);
   take_back(held, plan);
   plan.witnesses = std::move(verdict.witnesses);

@@ -57,6 +57,9 @@ public:
     for (LocalIndex t = 0; t < mesh_.triangle_count(); ++t)
       if (const LocalIndex piece = piece_of_[at(t)]; !is_part(piece) && pieces_[at(piece)].goes)
         verdict.rest.push_back(t);
+    for (LocalIndex t = 0; t < mesh_.triangle_count(); ++t)
+      if (is_loose(piece_of_[at(t)]))
+        verdict.loose.push_back(t);
     find_witnesses(verdict.witnesses);
     return verdict;
   }
@@ -110,6 +113,14 @@ private:
         region_at_[at(mesh_.origin(e))] = piece;
   }
 
+  /// Returns whether this is a body of a few triangles that would be cut off if all parts went. The largest body of a
+  /// component is not.
+  bool is_loose(LocalIndex k) const {
+    const Piece& piece = pieces_[at(k)];
+    return !is_part(k) && !piece.is_region && !piece.neighbours.empty() && !piece.holds_kept &&
+           piece.area < GeneraliseRules::least_cut_off && largest_[at(component_[at(k)])] != k;
+  }
+
   /// Adds a triangle to the piece.
   void add(LocalIndex t, LocalIndex index) {
     piece_of_[at(t)] = index;
@@ -155,7 +166,7 @@ private:
         sets.unite(static_cast<LocalIndex>(k), body);
     component_.resize(pieces_.size());
     std::vector<double> perimeter(pieces_.size());
-    std::vector<LocalIndex> largest(pieces_.size(), Triangulation::none);
+    largest_.assign(pieces_.size(), Triangulation::none);
     for (LocalIndex k = 0; k < std::ssize(pieces_); ++k) {
       Piece& piece = pieces_[at(k)];
       const LocalIndex root = component_[at(k)] = sets.root(k);
@@ -164,13 +175,13 @@ private:
         piece.stays = piece.area >= GeneraliseRules::least_body || piece.perimeter >= GeneraliseRules::small_component;
       else if (!is_part(k)) {
         piece.stays = piece.area >= GeneraliseRules::least_body || piece.holds_kept;
-        if (LocalIndex& best = largest[at(root)]; best == Triangulation::none || piece.area > pieces_[at(best)].area)
+        if (LocalIndex& best = largest_[at(root)]; best == Triangulation::none || piece.area > pieces_[at(best)].area)
           best = k;
       }
     }
     is_thin_.resize(pieces_.size());
     for (LocalIndex root = 0; root < std::ssize(pieces_); ++root) {
-      const LocalIndex best = largest[at(root)];
+      const LocalIndex best = largest_[at(root)];
       if (best == Triangulation::none || pieces_[at(best)].stays)
         continue;
       pieces_[at(best)].stays = true;
@@ -298,6 +309,7 @@ private:
   std::vector<LocalIndex> piece_of_;  // by triangle
   std::vector<LocalIndex> region_at_; // by vertex: the region next to it
   std::vector<LocalIndex> component_; // by piece
+  std::vector<LocalIndex> largest_;   // by piece that stands for a component: its largest body
   std::vector<char> is_thin_;         // by piece that stands for a component: that stays as it is
   std::vector<char> holds_staying_;   // by set: whether it holds a region that stays
 };

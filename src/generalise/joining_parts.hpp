@@ -19,8 +19,9 @@ struct Witnesses {
 
 /// States what the narrow parts of one side may become.
 struct Verdict {
-  std::vector<char> goes;       ///< by part: whether it may go to the other side
-  std::vector<LocalIndex> rest; ///< triangles of small bodies that are cut off: they go, too
+  std::vector<char> goes;        ///< by part: whether it may go to the other side
+  std::vector<LocalIndex> rest;  ///< triangles of small bodies that are cut off: they go, too
+  std::vector<LocalIndex> loose; ///< triangles of small bodies that would be cut off if all parts went
   Witnesses witnesses;
 };
 

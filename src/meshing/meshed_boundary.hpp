@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The boundary that is meshed: the boundary of the shape, with fixed points as corners and without dropped loops. Also
-// estimates how a run will simplify the boundary.
+// The boundary that is meshed: the boundary of the shape, with fixed points as corners and without dropped loops.
 #pragma once
 
 #include "boundary/fixed_points.hpp"
 #include "meshing/run_context.hpp"
 #include "polygon/polygon.hpp"
-#include "trime/meshing/mesher.hpp"
 #include "trime/polygon/loop_summary.hpp"
 
 #include <memory>
@@ -41,8 +39,5 @@ private:
   geometry::Boundary remaining_; // the curves without the dropped loops; unused if no loop was dropped
   bool drops_loops_ = false;
 };
-
-/// Estimates how a run will simplify the boundary, see Mesher::outlook. Collective.
-Outlook look_ahead(const RunContext& run);
 
 } // namespace trime::meshing

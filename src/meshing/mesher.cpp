@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trime/meshing/mesher.hpp"
 
+#include "boundary/changed_bodies.hpp"
 #include "boundary/feature_report.hpp"
 #include "certificate/certificate.hpp"
 #include "cleanup/rules.hpp"
@@ -11,6 +12,7 @@
 #include "fitting/size_warnings.hpp"
 #include "meshing/checkpoint_writer.hpp"
 #include "meshing/meshed_boundary.hpp"
+#include "meshing/outlook.hpp"
 #include "meshing/relaxation.hpp"
 #include "meshing/rules.hpp"
 #include "meshing/same_input.hpp"
@@ -78,6 +80,7 @@ private:
   void empty_discs();
   bool clean_up();
   MeshResult extract();
+  void judge_bodies();
   void tell_of_run(MeshResult& result);
   void tell_of_start(MeshResult& result) const;
   std::string count_reason(GlobalId points) const;
@@ -197,10 +200,13 @@ void Run::report_boundary() {
   comm::run_agreed(run_.comm, [this] { // this and the warnings ask the size field, which may be a user's
     boundary::report_losses(boundary_.fixed().cornered_boundary(), boundary_.curves(), stage_.simplified,
                             stage_.polygon.dropped, *stage_.asked_size, run_.lattice, features_);
+    boundary::measure_bodies(boundary_.curves(), stage_.polygon, *stage_.asked_size, features_);
   });
   for (const PlacedText& line : describe(features_))
     run_.log.info("boundary: {}", line.formatted());
   if (const PlacedText warning = loss_warning(features_); !warning.text().empty())
+    run_.log.warning("{}", warning.formatted());
+  if (const PlacedText warning = body_warning(features_, run_.given_boundary.part_names); !warning.text().empty())
     run_.log.warning("{}", warning.formatted());
   comm::run_agreed(run_.comm, [this] {
     fitting::warn_of_fine_features(stage_, run_.options.min_size.has_value(), run_.log);
@@ -258,8 +264,20 @@ MeshResult Run::extract() {
   if (const std::optional<double>& most = run_.options.features.max_loss)
     result.checks.push_back({"lost_area", *most, features_.lost_share, features_.lost_share <= *most,
                              "share of the area of the given shape that is lost: at most max_loss"});
+  judge_bodies();
   tell_of_run(result);
   return result;
+}
+
+/// Compares the loops of the shape with the final edges, which the clean-up may have moved. Collective.
+void Run::judge_bodies() {
+  const std::vector<std::string>& names = run_.given_boundary.part_names;
+  const bool warned = !body_warning(features_, names).text().empty();
+  comm::run_agreed(run_.comm, [this] {
+    boundary::measure_bodies(boundary_.curves(), stage_.polygon, *stage_.asked_size, features_);
+  });
+  if (const PlacedText warning = body_warning(features_, names); !warned && !warning.text().empty())
+    run_.log.warning("{}", warning.formatted());
 }
 
 /// Sets the other facts of the report about the mesh. @pre the mesh is in the result
@@ -333,8 +351,8 @@ MeshResult Mesher::run() {
       .make();
 }
 
-Outlook Mesher::outlook() const {
-  return look_ahead(implementation_->run);
+Outlook Mesher::outlook(Advice advice) const {
+  return look_ahead(implementation_->run, advice);
 }
 
 using sweep::StopReason;

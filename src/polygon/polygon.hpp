@@ -24,8 +24,9 @@ struct DroppedLoops {
   double share = 0; ///< `area` divided by the area of the shape as it was given
   int others = 0;   ///< number of components that are left out because the user asked for one component; not counted in
                     ///< `components`
-  double others_area = 0; ///< area of these other components, without their holes
-  double change = 0;      ///< change of the shape's area: dropped lakes minus dropped islands
+  double others_area = 0;                  ///< area of these other components, without their holes
+  double change = 0;                       ///< change of the shape's area: dropped lakes minus dropped islands
+  std::vector<geometry::Loop> other_loops; ///< the loops of the other components
   bool any() const { return components + holes + others > 0; }
 };
 

@@ -77,7 +77,9 @@ Attributes feature_attributes(const boundary::FeatureReport& features) {
           {"vertices_smoothed", features.smoothed},
           {"coarseness", features.coarseness},
           {"lost_share", features.lost_share},
-          {"added_share", features.added_share}};
+          {"added_share", features.added_share},
+          {"loops_changed", features.changed.number},
+          {"hole_share", features.hole_share}};
 }
 
 } // namespace
@@ -113,6 +115,7 @@ Attributes result_attributes(const meshing::MeshResult& result) {
                            {"given_components", std::int64_t{result.features.given_components}},
                            {"given_holes", std::int64_t{result.features.given_holes}},
                            {"shape_area", result.shape_area},
+                           {"given_area", result.features.given_area},
                            {"cleanup_patches", result.cleanup.patches},
                            {"cleanup_better", result.cleanup.better},
                            {"cleanup_moved", result.cleanup.moved},
@@ -222,7 +225,10 @@ io::MetadataGroup rings_group(const Origin& origin, const std::vector<boundary::
        column<double>("area", loops, &Fate::area),
        column<double>("length", loops, &Fate::length),
        column<double>("remaining_length", loops, &Fate::remaining_length),
-       column<double>("largest_deviation", loops, &Fate::largest_deviation)}};
+       column<double>("largest_deviation", loops, &Fate::largest_deviation),
+       column<double>("mesh_area", loops, &Fate::mesh_area),
+       column<double>("deviation", loops, &Fate::deviation),
+       column<double>("reach", loops, &Fate::reach)}};
 }
 
 io::MetadataGroup tags_group(const Origin& origin, const std::vector<polygon::LoopSummary>& loops) {

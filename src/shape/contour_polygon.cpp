@@ -42,8 +42,9 @@ Vec2 meeting_point(const Segment& s, const Segment& t) {
 /// The rings on the lattice while they are made and checked.
 class Placement {
 public:
-  Placement(const contours::Contour& contour, const contours::Normalization& normalization, const Frame& frame)
-      : contour_(contour), normalization_(normalization), frame_(frame) {}
+  Placement(const contours::Contour& contour, const contours::Normalization& normalization, const Frame& frame,
+            const TouchOptions& touches)
+      : contour_(contour), normalization_(normalization), frame_(frame), touches_(touches) {}
 
   Polygon make(std::vector<std::string>& warnings) {
     for (const contours::ContourRing& ring : contour_.rings)
@@ -56,10 +57,7 @@ public:
     const std::vector<int> markers = markers_of_segments();
     const SegmentGrid given = markers.empty() ? SegmentGrid{} : grid;
     if (const std::vector<SegmentPair> meetings = find_meetings(rings_, grid); !meetings.empty()) {
-      tell_touches(part_touches(rings_, meetings, grid, frame_), warnings);
-      grid = SegmentGrid(segments_of(rings_));
-      if (const std::vector<SegmentPair> left = find_meetings(rings_, grid); !left.empty())
-        report(grid, left[0]);
+      separate(meetings, grid, warnings);
     }
     Polygon polygon;
     polygon.grid = std::move(grid);
@@ -82,7 +80,8 @@ public:
 private:
   void add_ring(const contours::ContourRing& ring, std::vector<std::string>& warnings);
   void check_turns(const std::vector<Vec2>& p, const std::vector<int>& lines) const;
-  void tell_touches(const std::vector<RingTouch>& touches, std::vector<std::string>& warnings) const;
+  void separate(const std::vector<SegmentPair>& meetings, SegmentGrid& grid, std::vector<std::string>& warnings);
+  void tell_touches(const std::vector<RingTouch>& touches, double gap, std::vector<std::string>& warnings) const;
   void tell_pieces(const Polygon& polygon, std::vector<std::string>& warnings) const;
   [[noreturn]] void report(const SegmentGrid& grid, const SegmentPair& pair) const;
   std::vector<int> markers_of_segments() const;
@@ -91,6 +90,7 @@ private:
   const contours::Contour& contour_;
   const contours::Normalization& normalization_;
   const Frame& frame_;
+  const TouchOptions& touches_;
   std::vector<LatticeRing> rings_;
 };
 
@@ -179,15 +179,34 @@ void Placement::check_turns(const std::vector<Vec2>& p, const std::vector<int>& 
   }
 }
 
-void Placement::tell_touches(const std::vector<RingTouch>& touches, std::vector<std::string>& warnings) const {
+/// Separates rings that touch, less far where they would cross then.
+void Placement::separate(const std::vector<SegmentPair>& meetings, SegmentGrid& grid,
+                         std::vector<std::string>& warnings) {
+  const std::vector<LatticeRing> given = rings_;
+  const double least = ShapeRules::touch_gap * frame_.step();
+  for (double gap = std::fmax(least, touches_.gap);; gap = std::fmax(least, ShapeRules::smaller_gap * gap)) {
+    rings_ = given;
+    const std::vector<RingTouch> touches = part_touches(rings_, meetings, grid, frame_, {touches_.outside, gap});
+    SegmentGrid separated(segments_of(rings_));
+    if (const std::vector<SegmentPair> left = find_meetings(rings_, separated); left.empty()) {
+      tell_touches(touches, gap, warnings);
+      grid = std::move(separated);
+      return;
+    } else if (gap == least) {
+      report(separated, left[0]);
+    }
+  }
+}
+
+void Placement::tell_touches(const std::vector<RingTouch>& touches, double gap,
+                             std::vector<std::string>& warnings) const {
   const std::size_t told = std::min(touches.size(), most_told);
   for (const RingTouch& touch : std::span(touches).first(told))
     warnings.push_back(
         fmt::format("{}:{}: two rings touch at {} (the other one at line {}); they are moved apart by "
                     "{:.2g} there, so that no triangles meet across this point: nothing is connected there, whatever "
                     "meshing.connect says",
-                    contour_.source, touch.line, in_file(touch.place), touch.other_line,
-                    ShapeRules::touch_gap * frame_.step() / normalization_.scale));
+                    contour_.source, touch.line, in_file(touch.place), touch.other_line, gap / normalization_.scale));
   if (told < touches.size())
     warnings.push_back(fmt::format("{}: rings touch in {} more places and are moved apart there", contour_.source,
                                    touches.size() - told));
@@ -273,8 +292,8 @@ void Placement::orient(Polygon& polygon) {
 } // namespace
 
 Polygon make_contour_polygon(const contours::Contour& contour, const contours::Normalization& normalization,
-                             const Frame& frame, std::vector<std::string>& warnings) {
-  return Placement(contour, normalization, frame).make(warnings);
+                             const Frame& frame, std::vector<std::string>& warnings, const TouchOptions& touches) {
+  return Placement(contour, normalization, frame, touches).make(warnings);
 }
 
 Polygon make_simple_polygon(const std::vector<Vec2>& ring) {

@@ -16,7 +16,8 @@ namespace trime::shape {
 /// @param warnings receives a sentence for each ring with vertices that became equal by rounding
 /// @throws GeometryError under the conditions of Part::contour
 Polygon make_contour_polygon(const contours::Contour& contour, const contours::Normalization& normalization,
-                             const geometry::Frame& frame, std::vector<std::string>& warnings);
+                             const geometry::Frame& frame, std::vector<std::string>& warnings,
+                             const TouchOptions& touches = {});
 
 /// @brief Makes a polygon from one ring that is known not to cross itself.
 /// @pre the ring has at least three vertices, which are not collinear

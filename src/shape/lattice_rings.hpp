@@ -6,6 +6,7 @@
 #include "trime/core/types.hpp"
 #include "trime/geometry/lattice.hpp"
 #include "trime/geometry/segment_grid.hpp"
+#include "trime/shape/part.hpp"
 
 #include <array>
 #include <vector>
@@ -58,13 +59,14 @@ struct RingTouch {
 /// another ring.
 ///
 /// The area stays the same. Each sector of the area around the place gets a separate vertex. One of these vertices
-/// stays, and each other vertex moves into its sector by ShapeRules::touch_gap. So the area is never connected through
-/// the point where the rings touched. A hole that touches its outer ring becomes a bay, and a ring that pinches the
-/// area becomes two rings. Where edges overlap or rings cross, nothing is changed, so that find_meetings still finds
-/// them.
+/// stays, and each other vertex moves into its sector. So the area is never connected through the point where the rings
+/// touched. A hole that touches its outer ring becomes a bay, and a ring that pinches the area becomes two rings. Where
+/// edges overlap or rings cross, nothing is changed, so that find_meetings still finds them.
 /// @param meetings all pairs of segments that meet
 /// @param grid the grid made from segments_of(rings)
+/// @param options the gap is at least ShapeRules::touch_gap steps of the lattice
 std::vector<RingTouch> part_touches(std::vector<LatticeRing>& rings, const std::vector<SegmentPair>& meetings,
-                                    const geometry::SegmentGrid& grid, const geometry::Frame& frame);
+                                    const geometry::SegmentGrid& grid, const geometry::Frame& frame,
+                                    const TouchOptions& options);
 
 } // namespace trime::shape

@@ -320,7 +320,8 @@ void BoundaryMaker::report_node(LocalIndex node) const {
   const Vec2 p = nodes_->point(node);
   if (arrivals == departures)
     throw GeometryError(fmt::format("the boundary of the geometry '{}' touches itself at {} (part {}); "
-                                    "expected curves that do not meet: move the parts apart, or make them overlap",
+                                    "expected curves that do not meet: move the parts apart, or make them overlap. No "
+                                    "triangles meet across a point, whatever meshing.connect says",
                                     region_.text(), Place(p, 12), list));
   throw GeometryError(
       fmt::format("boundaries of parts of the geometry '{}' nearly coincide at {} (part {}): they are "

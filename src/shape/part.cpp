@@ -109,9 +109,9 @@ Part Part::triangle(const std::string& name, const std::array<Vec2, 3>& corners,
 }
 
 Part Part::contour(const std::string& name, const contours::Contour& contour,
-                   const contours::Normalization& normalization, const Frame& frame) {
+                   const contours::Normalization& normalization, const Frame& frame, const TouchOptions& touches) {
   std::vector<std::string> warnings = contour.warnings;
-  Part part(name, make_contour_polygon(contour, normalization, frame, warnings));
+  Part part(name, make_contour_polygon(contour, normalization, frame, warnings, touches));
   part.warnings_ = std::move(warnings);
   part.is_contour_ = true;
   return part;

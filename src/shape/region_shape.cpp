@@ -139,6 +139,16 @@ Region Region::parse(std::string_view text, std::span<const std::string> part_na
   return region;
 }
 
+bool Region::subtracts(int node, int part, bool even) const {
+  const Node& n = nodes_[static_cast<std::size_t>(node)];
+  if (n.operation == Operation::part)
+    return even && n.part == part;
+  for (std::size_t k = 0; k < n.operands.size(); ++k)
+    if (subtracts(n.operands[k], part, (n.operation == Operation::subtract && k > 0) != even))
+      return true;
+  return false;
+}
+
 geometry::Box Region::box_of(std::size_t node, std::span<const geometry::Box> boxes) const {
   const Node& n = nodes_[node];
   if (n.operation == Operation::part)

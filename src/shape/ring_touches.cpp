@@ -81,7 +81,8 @@ void split_edges(std::vector<LatticeRing>& rings, const std::vector<SegmentPair>
 /// Edge e leads from vertex e to the next of its ring: end 2 e is its start, end 2 e + 1 its other end.
 class Web {
 public:
-  Web(const std::vector<LatticeRing>& rings, const SegmentGrid& grid, const Frame& frame) : grid_(grid), frame_(frame) {
+  Web(const std::vector<LatticeRing>& rings, const SegmentGrid& grid, const Frame& frame, const TouchOptions& options)
+      : grid_(grid), frame_(frame), options_(options) {
     LocalIndex first = 0;
     for (std::size_t r = 0; r < rings.size(); ++r) {
       const LatticeRing& ring = rings[r];
@@ -124,6 +125,7 @@ private:
 
   const SegmentGrid& grid_; ///< of the rings as they are in the web
   const Frame& frame_;
+  const TouchOptions& options_;
   std::vector<Vec2> places_, before_; ///< of each vertex, now and at first
   std::vector<int> lines_;
   std::vector<std::size_t> ring_;               ///< of each vertex, as given
@@ -207,7 +209,10 @@ Web::Sector Web::sector(const std::vector<Arm>& arms, std::size_t first, Vec2 pl
       break;
   }
   const double sine = std::fmin(std::fabs(cross(best, u)), std::fabs(cross(best, w)));
-  const double step = ShapeRules::touch_gap * frame_.step() / std::fmax(sine, ShapeRules::least_sine);
+  const double shortest_step = ShapeRules::touch_gap * frame_.step();
+  double step = options_.gap / std::fmax(sine, ShapeRules::least_sine);
+  for (const Arm& arm : arms)
+    step = std::fmin(step, std::fmax(shortest_step, ShapeRules::farthest_move * length(arm.toward - place)));
   result.moved = frame_.snap(place + step * best);
   return result;
 }
@@ -217,7 +222,7 @@ bool Web::part_at(const std::vector<LocalIndex>& visits) {
   if (!can_part(arms))
     return false;
   const Vec2 place = before_[at(visits[0])];
-  const std::size_t first = area_on_left(arms[0], place) ? 0 : 1;
+  const std::size_t first = area_on_left(arms[0], place) != options_.outside ? 0 : 1;
   std::vector<Sector> sectors;
   for (std::size_t k = first; k < arms.size(); k += 2)
     sectors.push_back(sector(arms, k, place));
@@ -278,10 +283,10 @@ std::vector<LatticeRing> Web::rings() const {
 } // namespace
 
 std::vector<RingTouch> part_touches(std::vector<LatticeRing>& rings, const std::vector<SegmentPair>& meetings,
-                                    const SegmentGrid& grid, const Frame& frame) {
+                                    const SegmentGrid& grid, const Frame& frame, const TouchOptions& options) {
   split_edges(rings, meetings, grid, ShapeRules::on_edge * frame.step());
   const SegmentGrid split(segments_of(rings));
-  Web web(rings, split, frame);
+  Web web(rings, split, frame, options);
   std::vector<RingTouch> touches = web.part();
   rings = web.rings();
   return touches;

@@ -19,6 +19,10 @@ struct ShapeRules {
   /// side, triangles next to the touch are as good as elsewhere (a largest alpha of 1.12 next to two touching squares).
   /// Not measured.
   static constexpr double touch_gap = 64;
+  /// [1] Where rings that are separated farther would cross, the distance becomes smaller by this factor. Not measured.
+  static constexpr double smaller_gap = 0.125;
+  /// [shortest edge at the touch] A vertex moves no farther than this. Not measured.
+  static constexpr double farthest_move = 0.25;
   /// [1] Where rings are separated, a vertex stays if the sine of half its angle is below this number and another
   /// vertex can move. Not measured.
   static constexpr double sharp_sine = 0.1;

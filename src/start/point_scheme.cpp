@@ -112,7 +112,11 @@ Stage PointScheme::first() {
   }
   if (const fitting::TooFewPoints* few = std::get_if<fitting::TooFewPoints>(&made)) // on all ranks together
     throw ConfigError(few->reason);
-  return std::move(std::get<Stage>(made));
+  Stage& stage = std::get<Stage>(made);
+  if (const std::optional<fitting::TooFewPoints> thin =
+          fitting::too_thin(given_, is_last() || inserts() ? stage : laid_last_))
+    throw ConfigError(thin->reason);
+  return std::move(stage);
 }
 
 PointScheme::First PointScheme::first_of_scheme() {
@@ -248,6 +252,12 @@ void PointScheme::place_along_curve(Stage& stage, double inner, const placing::H
     }
   }
   fit_.place_sites(stage, std::move(placed));
+}
+
+Stage PointScheme::last_from(Stage first) {
+  if (is_last())
+    return first;
+  return scheme_ == Scheme::insertion ? fit_.lay(1, expected_points()) : std::move(laid_last_);
 }
 
 Stage PointScheme::next(const Stage& previous) {

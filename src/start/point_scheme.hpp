@@ -39,6 +39,9 @@ public:
   /// @throws ConfigError if there are too few points for the shape or for max_size; GeometryError if the shape cannot
   /// be meshed; both on all ranks together
   sites::Stage first();
+  /// @brief Returns the last stage as it will be laid out, without its sites unless the first one is the last.
+  /// Collective. @param first the stage that first() has just returned @pre no other stage follows
+  sites::Stage last_from(sites::Stage first);
   /// Returns the next stage. Collective.
   /// @pre !is_last(), and the stars of all sites of `previous` are certain
   sites::Stage next(const sites::Stage& previous);
@@ -60,6 +63,8 @@ public:
   /// Returns the places where the boundary needs smaller triangles than the size that was asked for.
   /// @pre first() was called
   std::span<const sizing::SizeLimit> limits() const { return fit_.limits(); }
+  /// Returns the factor of a size that varies. @pre first() was called
+  double factor() const { return fit_.factor(); }
   /// Returns in one line which scheme was chosen and why.
   const std::string& reason() const { return reason_; }
   /// Returns why the scheme made fewer points than requested; empty if it made enough.

@@ -141,10 +141,11 @@ class Losses(unittest.TestCase):
             told = run(config, "--quiet", "output.interval=0", "meshing.points=200").stdout
             self.assertEqual(counts_of(done.stdout), counts_of(told))
             self.assertGreaterEqual(counts_of(told)[0]["filled"], 2)
-            keeps = re.search(r"^about (\S+) points \(edge_length = (\S+)\) keep everything$", done.stdout, re.M)
-            self.assertAlmostEqual(float(keeps[2]), 0.8 * 0.04 / 3, delta=0.0015)  # a perimeter of 3 h
+            self.assertRegex(done.stdout, r"(?m)^\d+ points keep everything; that was tried$")
+            keeps = re.search(r"^edge_length = (\S+) keeps everything; that was tried$", done.stdout, re.M)
+            self.assertAlmostEqual(float(keeps[1]), 0.8 * 0.04 / 3, delta=0.0015)  # a perimeter of 3 h
             for share, says in ((0.8, True), (1.5, False)):
-                edge_length = f"meshing.edge_length={share * float(keeps[2])}"
+                edge_length = f"meshing.edge_length={share * float(keeps[1])}"
                 done = run(config, "--dry-run", "meshing.points=", edge_length)
                 self.assertEqual(KEPT in done.stdout, says, done.stdout)
 

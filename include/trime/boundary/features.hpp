@@ -61,7 +61,8 @@ struct LoopFate {
     merged,  ///< a loop of the mesh follows this loop and others, or a larger part of the shape covers the area inside
              ///< it
     dropped, ///< the loop is missing in the mesh, and so is the part of the shape inside it
-    filled   ///< a hole that now belongs to the shape
+    filled,  ///< a hole that now belongs to the shape
+    left_out ///< a loop of a component that is left out because FeatureOptions::components asks for another component
   };
   State state = State::kept;
   std::vector<std::int32_t>
@@ -73,12 +74,24 @@ struct LoopFate {
   double remaining_length = 0; ///< length of the mesh curves that follow the loop, at most `length`
   double largest_deviation =
       0; ///< largest distance of these mesh curves from the given boundary, divided by the size that was asked for
+  double mesh_area = 0;   ///< area that the mesh loops enclose, with straight edges; 0 for a band or if is_lost()
+  double mesh_length = 0; ///< sum of the lengths of their edges; 0 in the same cases
+  double deviation = 0;   ///< largest distance between these edges and the given boundary, a length
+  double reach = 0;       ///< largest distance of a vertex of the loop from the mesh curves; 0 if the loop is kept
+  double extent = 0;      ///< diagonal of the box around the loop
 
   bool is_lost() const { return state == State::merged || state == State::dropped || state == State::filled; }
 };
 
 /// Returns "kept", "simplified", ...
 const char* to_string(LoopFate::State state);
+
+/// The loops that differ noticeably from the shape, each compared with its own size. Loops that are lost do not count.
+struct ChangedBodies {
+  GlobalId number = 0;
+  std::size_t worst = 0; ///< index into FeatureReport::loops, if there is one
+  double perimeter = 0;  ///< length of that loop divided by the size that was asked for there
+};
 
 /// A corner of the boundary polygon and its interior angle.
 struct SharpCorner {
@@ -117,11 +130,14 @@ struct FeatureReport {
   double other_share = 0;        ///< area of the components that were left out, divided by the area of the shape
   double lost_share = 0,
          added_share = 0;      ///< areas divided by the area of the shape, including dropped islands and lakes
+  double given_area = 0;       ///< area of the given shape
   std::vector<LoopFate> loops; ///< fate of each loop of the shape, in the order of the loops
   int given_components = 0, given_holes = 0; ///< numbers of components and holes of the given shape
   int components = 0, holes = 0; ///< numbers of components and holes of the simplified shape, which is meshed
   geometry::Vec2 lost_place;     ///< first vertex of the longest lost loop
   double lost_perimeter = 0;     ///< length of the longest lost loop divided by the size there
+  ChangedBodies changed;         ///< loops that stay, but not as they were
+  double hole_share = 0; ///< area that the mesh gains since edges are chords of holes, divided by that of the shape
 };
 
 /// Returns one line of text for each kind of change to the boundary; no lines if the boundary was kept as it is.
@@ -130,10 +146,20 @@ std::vector<PlacedText> describe(const FeatureReport& report);
 /// Returns whether the mesh has other numbers of components or holes than the given shape, or a loop was lost or split.
 bool changes_topology(const FeatureReport& report);
 
+/// Says whether a report is about a mesh that is written, or about one that a run would make.
+enum class Occasion { run, outlook };
+
 /// Returns a warning that says which parts of the shape are missing in the mesh, and what the user can do. If the
 /// number of components or holes has changed, the warning begins with it, its reason and a place. The text is empty if
 /// no loop is lost or split, the numbers of components and holes are those of the shape, and at most 0.1 % of the area
 /// is lost or added.
-PlacedText loss_warning(const FeatureReport& report);
+PlacedText loss_warning(const FeatureReport& report, Occasion occasion = Occasion::run);
+
+/// Returns a warning that names the loop that has changed most in comparison with its own area, width and extent. It is
+/// empty if every loop that stays keeps its area within 2 %, and lies within a tenth of its width and a twentieth of
+/// its extent of the shape. The chords of all holes together may add 0.1 % to the area of the shape.
+/// @param part_names Boundary::part_names of the shape
+PlacedText body_warning(const FeatureReport& report, const std::vector<std::string>& part_names,
+                        Occasion occasion = Occasion::run);
 
 } // namespace trime::boundary

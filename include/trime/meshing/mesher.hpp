@@ -20,13 +20,17 @@ namespace trime::meshing {
 /// An estimate of how a run would simplify the boundary (MeshResult::features), and of the resolution at which it would
 /// simplify nothing.
 struct Outlook {
-  boundary::FeatureReport features;
+  boundary::FeatureReport
+      features;           ///< as a run would report it at the start of its last stage; an estimate above 1e5 points
   bool keeps_all = false; ///< true if nothing would be simplified or dropped
-  /// Estimated number of points with which nothing is simplified; only a lower bound if `is_enough` is false.
+  /// Number of points with which nothing is simplified; only a lower bound if `is_tried` is false; 0: no advice.
   double keeping_points = 0;
-  double keeping_edge_length = 0; ///< mean edge length of a mesh with keeping_points points
-  bool is_enough = false;         ///< whether a mesh of keeping_points points would keep everything
+  bool is_tried = false; ///< whether the boundary was placed for keeping_points points, and nothing was simplified
+  double keeping_edge_length = 0; ///< a tried edge length that keeps everything, if the size is uniform; otherwise 0
 };
+
+/// Says whether an outlook looks for a number of points that keeps everything.
+enum class Advice { no, yes };
 
 /// The mesh in the middle of a run. Valid only during the call of the observer.
 struct Snapshot {
@@ -76,7 +80,7 @@ public:
   /// @brief Estimates how run() will simplify the boundary, without making a mesh. Takes as long as the first steps of
   /// a mesh of 10^5 points, plus at most 12 simplifications of the boundary.
   /// @throws the errors of run()
-  Outlook outlook() const;
+  Outlook outlook(Advice advice = Advice::yes) const;
 
 private:
   class Implementation;

@@ -42,6 +42,13 @@ std::array<geometry::Vec2, 4> quadrant_vertices(const Circle& circle);
 /// @brief Returns the counter-clockwise arc of `circle` from a to b, less than a full turn.
 geometry::Piece make_arc(const Circle& circle, geometry::Vec2 a, geometry::Vec2 b);
 
+/// How rings of a contour are separated where they touch.
+struct TouchOptions {
+  bool outside = false; ///< the contour is subtracted: what lies around it is separated there, and not its area
+  double gap = 0; ///< distance between the separated vertices, if the rings leave room for it; at least 1e-12 of the
+                  ///< container
+};
+
 /// One named part of a shape. Immutable.
 class Part {
 public:
@@ -58,12 +65,13 @@ public:
   /// ring inside an odd number of other rings is a hole.
   ///
   /// Takes O(M log M) time for M vertices; the test for crossings uses all threads. Where two rings touch at a vertex,
-  /// they are separated by a gap of about 1e-12 of the container, which the area does not cross. A ring that occurs
-  /// twice is used once. A warning reports each of these changes.
+  /// they are separated by a gap of about 1e-12 of the container, or by the gap of `touches`; the area does not cross
+  /// this gap. A ring that occurs twice is used once. A warning reports each of these changes.
   /// @throws GeometryError `source:line: ...` if rings cross or overlap along edges, enclose no area, or leave
   /// frame.reach()
   static Part contour(const std::string& name, const contours::Contour& contour,
-                      const contours::Normalization& normalization, const geometry::Frame& frame);
+                      const contours::Normalization& normalization, const geometry::Frame& frame,
+                      const TouchOptions& touches = {});
   /// @brief Makes a part from a polygon whose vertices are already on the coordinate lattice.
   /// @param warnings for the user, one sentence each
   static Part polygon(const std::string& name, Polygon polygon, std::vector<std::string> warnings = {});

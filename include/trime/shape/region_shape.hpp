@@ -42,6 +42,9 @@ public:
     return value(0, inside);
   }
 
+  /// Returns whether a part occurs only as something that is subtracted.
+  bool subtracts(int part) const { return subtracts(0, part, false) && !subtracts(0, part, true); }
+
   /// Returns a box around the shape, computed from the boxes of all parts and, as the last element, of the domain.
   geometry::Box box(std::span<const geometry::Box> boxes) const { return box_of(0, boxes); }
 
@@ -71,6 +74,8 @@ private:
     return !decides;
   }
 
+  /// Returns whether the part occurs below the node with an even number of subtractions in between, or an odd one.
+  bool subtracts(int node, int part, bool even) const;
   geometry::Box box_of(std::size_t node, std::span<const geometry::Box> boxes) const;
 
   std::string text_;

@@ -67,6 +67,9 @@ TEST(FeatureRule, LeavesOutAllComponentsButTheChosenOne) {
   EXPECT_EQ(dropped_by(Components::all).dropped, Flags({0, 0, 0, 0}));
   EXPECT_EQ(dropped_by(Components::largest).dropped, Flags({1, 1, 1, 0}));
   EXPECT_EQ(dropped_by(Components::largest).others, 2);
+  const std::vector<geometry::Loop> left_out = dropped_by(Components::largest).other_loops;
+  EXPECT_TRUE(lies_within(left_out, {0.45, 0.3}) && lies_within(left_out, {0.3, 0.3}));
+  EXPECT_FALSE(lies_within(left_out, {0.37, 0.3}) || lies_within(left_out, {0.75, 0.75}));
   EXPECT_EQ(dropped_by(Components::at, {0.45, 0.3}).dropped, Flags({0, 0, 1, 1}));
   EXPECT_EQ(dropped_by(Components::at, {0.3, 0.31}).dropped, Flags({1, 1, 0, 1}));
   EXPECT_EQ(dropped_by(Components::at, {0.37, 0.3}).dropped, Flags({1, 1, 0, 1})) << "in the hole, next to the island";

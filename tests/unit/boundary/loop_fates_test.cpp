@@ -141,6 +141,22 @@ TEST(LossWarning, CountsLoopsAndArea) {
     EXPECT_NE(warning.find(words), std::string::npos) << warning;
 }
 
+TEST(LossWarning, WhatIsLeftOutOnPurposeIsNotLost) {
+  const Boundary given = boundary_of({box(0.1, 0.1, 0.6, 0.6, 1), box(0.7, 0.7, 0.9, 0.9, 2)});
+  polygon::DroppedLoops dropped = drop_small_loops(given, UniformSize(h), 3);
+  drop_other_components(given, {0, 3, Components::largest}, dropped);
+  FeatureReport report;
+  report_losses(given, boundary_without(given, dropped), {}, dropped, UniformSize(h), unit_lattice(), report);
+  EXPECT_EQ(report.loops.at(0).state, LoopFate::State::kept);
+  EXPECT_EQ(report.loops.at(1).state, LoopFate::State::left_out);
+  EXPECT_TRUE(report.loops.at(1).tags.empty());
+  const std::string warning = loss_warning(report).text();
+  EXPECT_TRUE(warning.starts_with("2 components became 1: 1 component was left out as meshing.components asks for"))
+      << warning;
+  for (const char* words : {"dropped", "More points", "keep_features"})
+    EXPECT_EQ(warning.find(words), std::string::npos) << warning;
+}
+
 TEST(LossWarning, CountsPiecesEvenIfNoLoopIsLost) {
   const Boundary given = boundary_of({box(0.1, 0.1, 0.6, 0.6, 1)});
   const Boundary meshed = boundary_of({box(0.1, 0.1, 0.34999, 0.6, 1), box(0.35001, 0.1, 0.6, 0.6, 2)});

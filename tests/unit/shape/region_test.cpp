@@ -26,6 +26,14 @@ TEST(Region, ValuesOfAllCombinations) {
   }
 }
 
+TEST(Region, KnowsWhatIsOnlySubtracted) {
+  const std::vector<std::string> names{"a", "b", "c"};
+  const Region region = Region::parse("union(difference(a, b), difference(c, difference(b, c)))", names);
+  EXPECT_FALSE(region.subtracts(0));
+  EXPECT_TRUE(region.subtracts(1));
+  EXPECT_FALSE(region.subtracts(2)) << "it is also added";
+}
+
 TEST(Region, TheBoxHoldsTheShape) {
   const std::vector<geometry::Box> boxes{{{0, 0}, {4, 3}}, {{2, 1}, {9, 2}}, {{-1, -1}, {1, 1}}, {{0, 0}, {1, 1}}};
   const auto expect_box = [&](const char* text, geometry::Vec2 min, geometry::Vec2 max) {
