@@ -204,18 +204,15 @@ PlacedText loss_warning(const FeatureReport& report) {
       fmt::format("{}he shape is simplified at this size: {:.3g} % of its area is lost, {:.3g} % is added{}",
                   text.empty() ? "t" : ". T", 100 * report.lost_share, 100 * report.added_share, lost_loops(report));
   if (report.coarseness > BoundaryRules::told_coarseness)
-    text += fmt::format(". It is simplified as for triangles {:.2g} times as large, because keeping more features "
-                        "would take more points than were asked for",
-                        report.coarseness);
-  text += ". More points (a smaller edge_length) keep more features, and --dry-run says how many points keep all "
-          "features. ";
+    text +=
+        fmt::format(". The simplification is that for triangles {:.2g} times as large: keeping more would take more "
+                    "points than were asked for",
+                    report.coarseness);
+  text += ". More points (a smaller edge_length) keep more, and --dry-run says how many keep everything. ";
   if (report.components > report.given_components && report.severed == 0)
     text += "A smaller meshing.simplify_within keeps narrow connections. ";
-  return PlacedText(
-      text +
-      "meshing.keep_features = true keeps all features, however many points that takes. The table /trime_mpi/rings in "
-      "the mesh file says for each loop of the shape whether it was kept, simplified, split, merged, filled or "
-      "dropped");
+  return PlacedText(text + "meshing.keep_features = true keeps everything, however many points that takes. The table "
+                           "/trime_mpi/rings in the file says what became of each loop");
 }
 
 std::vector<PlacedText> describe(const FeatureReport& report) {
