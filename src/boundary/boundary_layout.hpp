@@ -20,7 +20,7 @@ enum class SiteKind : std::int32_t { plain, corner, sharp_corner };
 /// A site of one loop. Ranks exchange it as bytes, so it has no padding.
 struct LoopSite {
   double t;                ///< coordinate along the loop in units of h, see LoopMetric; in [0, total)
-  geometry::Vec2 position; ///< on the unrolled loop
+  geometry::Vec2 position; ///< position on the loop as a continuous curve, which may leave a periodic container
   SiteKind kind;
   std::int32_t loop = 0; ///< number of the loop in the boundary
 };

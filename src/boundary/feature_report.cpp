@@ -57,14 +57,15 @@ std::string simplification_line(const FeatureReport& report) {
       listed({{report.cut, "narrow part cut", "narrow parts cut"},
               {report.closed, "narrow part of the outside closed", "narrow parts of the outside closed"},
               {report.widened, "widened", "widened"},
-              {report.held, "kept since it joins or separates what is larger",
-               "kept since they join or separate what is larger"},
+              {report.held, "narrow part kept because it joins or separates larger bodies",
+               "narrow parts kept because they join or separate larger bodies"},
               {report.filled, "small hole filled", "small holes filled"},
               {report.thinned, "piece of ragged curves thinned", "pieces of ragged curves thinned"},
               {report.smoothed, "vertex of ragged curves smoothed", "vertices of ragged curves smoothed"}});
   if (!line.empty())
-    line = fmt::format("simplified to the size of the triangles: {}; {:.3g} % of the area lost, {:.3g} % added", line,
-                       100 * report.lost_share, 100 * report.added_share);
+    line = fmt::format(
+        "simplified to the size of the triangles: {}; {:.3g} % of the area of the shape was lost, {:.3g} % was added",
+        line, 100 * report.lost_share, 100 * report.added_share);
   return line;
 }
 
@@ -90,7 +91,7 @@ std::string reasons(const FeatureReport& report) {
   using State = LoopFate::State;
   std::string text;
   if (report.severed > 0)
-    text = fmt::format("{} cut{}, the widest {:.2g} h at {}; meshing.connect = keep holds {}",
+    text = fmt::format("{} cut{}, the widest {:.2g} h at {}; meshing.connect = keep keeps {}",
                        counted(report.severed, "neck was", "necks were"), report.closed > 0 ? " or closed" : "",
                        report.widest_severed, Place(report.severed_place, 6), report.severed == 1 ? "it" : "them");
   const std::string lost = listed({{number_of(report, State::dropped), "loop was dropped", "loops were dropped"},
@@ -120,7 +121,7 @@ std::string lost_loops(const FeatureReport& report) {
                                          {filled, "hole filled", "holes filled"},
                                          {merged, "merged with others", "merged with others"}}));
   if (merged > 0)
-    text += fmt::format(", the mesh has {}", counted(loops_of_mesh(report), "loop", "loops"));
+    text += fmt::format(" so that the mesh has {}", counted(loops_of_mesh(report), "loop", "loops"));
   return text;
 }
 
@@ -265,30 +266,31 @@ std::vector<PlacedText> describe(const FeatureReport& report) {
   if (std::string line = simplification_line(report); !line.empty())
     lines.emplace_back(std::move(line));
   if (report.dropped_islands + report.dropped_lakes > 0)
-    lines.emplace_back(fmt::format("{} and {} with a perimeter below {:g} local sizes were dropped, {:.3g} of the area",
+    lines.emplace_back(fmt::format("{} and {} with a perimeter below {:g} local edge lengths were dropped; their share "
+                                   "of the area of the shape is {:.3g}",
                                    counted(report.dropped_islands, "island", "islands"),
                                    counted(report.dropped_lakes, "lake", "lakes"), BoundaryRules::least_perimeter,
                                    report.dropped_share));
   if (report.corners_left_out > 0)
-    lines.emplace_back(fmt::format("{} below the resolution were left out, at most {:.2f} local sizes from the facets",
+    lines.emplace_back(fmt::format("{} of features smaller than the triangles were left out, at most {:.2f} local edge "
+                                   "lengths from the boundary of the mesh",
                                    counted(report.corners_left_out, "corner", "corners"), report.largest_deviation));
   if (report.segments_halved > 0)
-    lines.emplace_back(fmt::format("{} halved: another part of the boundary is near, or the curve bends",
-                                   counted(report.segments_halved, "chord was", "chords were")));
+    lines.emplace_back(fmt::format("{} halved, because another part of the boundary is near or the curve bends",
+                                   counted(report.segments_halved, "boundary edge was", "boundary edges were")));
   if (report.size_limits > 0)
-    lines.emplace_back(
-        fmt::format("the size was lowered at {}, down to {:.2g} of the requested size, since channels and "
-                    "corners there are narrower",
-                    counted(report.size_limits, "place", "places"), report.lowest_size_share));
+    lines.emplace_back(fmt::format("the size was lowered at {}, down to {:.2g} of the size asked for, because channels "
+                                   "and corners there are narrower",
+                                   counted(report.size_limits, "place", "places"), report.lowest_size_share));
   if (!report.sharp_corners.empty()) {
     std::string list;
     for (std::size_t k = 0; k < std::min(most_listed, report.sharp_corners.size()); ++k)
       list += fmt::format("{}{:.1f} at {}", k == 0 ? "" : ", ", report.sharp_corners[k].degrees,
                           Place(report.sharp_corners[k].place, 6));
-    lines.emplace_back(fmt::format("{} of less than {:g} degrees, where smaller angles cannot be avoided: {}{}",
-                                   counted(std::ssize(report.sharp_corners), "corner", "corners"),
-                                   FeatureReport::sharp_angle, list,
-                                   report.sharp_corners.size() > most_listed ? ", ..." : ""));
+    lines.emplace_back(
+        fmt::format("{} of less than {:g} degrees, where the mesh must have triangles with such angles: {}{}",
+                    counted(std::ssize(report.sharp_corners), "corner", "corners"), FeatureReport::sharp_angle, list,
+                    report.sharp_corners.size() > most_listed ? ", ..." : ""));
   }
   return lines;
 }

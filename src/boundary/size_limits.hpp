@@ -21,8 +21,8 @@ namespace trime::boundary {
 std::vector<sizing::SizeLimit> size_limits(const polygon::BoundarySites& boundary, const sizing::SizeField& size,
                                            const sizing::SizeField& asked, double gradation);
 
-/// Does the same on all ranks together: each rank examines a share of the chords and of the sites near them.
-/// Collective.
+/// Returns the same limits as the function above, computed by all ranks together: each rank examines a share of the
+/// chords and of the sites near them. Collective.
 std::vector<sizing::SizeLimit> size_limits(const comm::Communicator& comm, const polygon::BoundarySites& boundary,
                                            const sizing::SizeField& size, const sizing::SizeField& asked,
                                            double gradation);

@@ -26,12 +26,12 @@ struct CurveSquare {
 };
 
 /// Returns the cell (x, y) of 2^level x 2^level cells. Cost: O(level / 4).
-/// @pre level at most 32
+/// @pre level <= 32
 CurveSquare curve_square(std::uint32_t x, std::uint32_t y, int level);
 
 /// @brief Returns the position of the cell (x, y) along the Hilbert curve through 2^level x 2^level cells. Cost:
 /// O(level / 4).
-/// @pre level at most 32
+/// @pre level <= 32
 std::uint64_t hilbert_key(std::uint32_t x, std::uint32_t y, int level);
 
 } // namespace trime

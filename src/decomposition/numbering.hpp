@@ -11,9 +11,9 @@
 
 namespace trime::decomposition {
 
-/// @brief The numbers of points. A *vertex* is a number that is local to this rank: first the owned points in the order
-/// of their global ids, then points of other ranks by ascending global id. All periodic images of a point have the same
-/// vertex. Memory: 8 bytes per site.
+/// @brief The local and the global numbers of the points that this rank knows. A *vertex* is a number that is local to
+/// this rank: first the owned points in the order of their global ids, then points of other ranks by ascending global
+/// id. All periodic images of a point have the same vertex. Memory: 8 bytes per site.
 struct Numbering {
   GlobalId first = 0; ///< global id of the first owned point
   GlobalId total = 0; ///< number of points of the whole mesh

@@ -18,7 +18,8 @@ struct PointLabel {
 void check_range(std::int64_t number, std::size_t count, const char* what) {
   if (number < 0 || number >= static_cast<std::int64_t>(count))
     throw FileError(
-        fmt::format("the mesh has {} {}, but names for {} only: it cannot be written", what, number, count));
+        fmt::format("the mesh uses the number {1} of a {0}, but has only {2} names for that, so it cannot be written",
+                    what, number, count));
 }
 
 } // namespace

@@ -12,7 +12,8 @@ namespace trime::geometry {
 /// clockwise. Exact.
 ///
 /// The differences of lattice points are exact, and rounding is monotone: if the two rounded products differ, the exact
-/// products differ in the same direction. Only equal rounded products need their rounding errors (two fused products).
+/// products differ in the same direction. Only if the rounded products are equal, their rounding errors are compared
+/// (two fused multiply-adds).
 inline int orient2d(Vec2 a, Vec2 b, Vec2 c) {
   const double acx = a.x - c.x, acy = a.y - c.y, bcx = b.x - c.x, bcy = b.y - c.y;
   const double left = acx * bcy, right = acy * bcx;

@@ -34,8 +34,8 @@ void LoneFailure::wait_for_the_end() {
   if (changed_.wait_for(lock, patience_, [this] { return is_known_; }))
     return;
   std::fprintf(stderr,
-               "trime_mpi: error: %s (one rank alone; the others do not come out of the same call of MPI-IO: the job "
-               "ends)\n",
+               "trime_mpi: error: %s (on one rank alone; the other ranks do not return from the same MPI-IO call, so "
+               "the job ends)\n",
                message_.c_str());
   unlink(path_.c_str());
   _exit(static_cast<int>(ExitCode::file)); // the launcher ends the others

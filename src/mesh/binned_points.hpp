@@ -77,8 +77,8 @@ public:
   LocalIndex last_tile() const { return order_.last_tile(); }
   /// Returns the sites of an owned tile.
   SiteRange tile_range(LocalIndex tile) const { return order_.of_tile(tile); }
-  /// Returns the number, in KnownBins, of a tile that has a known bin; -1 for other tiles. Drifts are indexed by this
-  /// number.
+  /// Returns the number, in KnownBins, of a tile that has a known bin; -1 for other tiles. The drifts (moves since the
+  /// last sorting) are stored under this number.
   LocalIndex known_tile(LocalIndex tile) const { return bins_.known_tile(tile); }
   LocalIndex known_tiles() const { return bins_.known_tiles(); }
   /// Returns the sites of a bin; empty if the bin is unknown.

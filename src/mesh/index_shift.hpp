@@ -14,7 +14,7 @@ namespace trime::mesh {
 /// The old and the new indices of a list from which some entries are removed and into which others are inserted.
 class IndexShift {
 public:
-  /// @param before length of the list
+  /// @param before length of the list before the change
   /// @param gone indices of the removed entries, ascending, each once
   /// @param places for each inserted entry, the old index of the entry before which it is inserted, or `before` for the
   /// end; ascending

@@ -191,7 +191,7 @@ private:
 };
 
 /// Returns points, stars and sizes in the form that update rules use.
-/// @param size the field of the last compute_stars
+/// @param size the size field of the last call of compute_stars
 inline StarView view_of(const SiteState& state, const sizing::SizeField& size) {
   return {state.points(), state.stars(), size, &state.sizes()};
 }

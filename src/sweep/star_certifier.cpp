@@ -130,7 +130,8 @@ std::vector<LocalIndex> StarCertifier::certify_suspects() {
 
 void StarCertifier::go_on(const Open& all, int round) {
   if (round == sites::SiteRules::most_halo_rounds)
-    throw InternalError(fmt::format("the halo still grows after {} rounds", round));
+    throw InternalError(
+        fmt::format("the ghosts (copies of points of other ranks) still increase after {} rounds", round));
   if (all.uncertain > 0)
     state_.fetch(missing_, context_.size);
 }

@@ -80,6 +80,7 @@ public:
   /// @brief Estimates how run() will simplify the boundary, without making a mesh. Takes as long as the first steps of
   /// a mesh of 10^5 points, plus at most 12 simplifications of the boundary.
   /// @throws the errors of run()
+  /// @note Collective.
   Outlook outlook(Advice advice = Advice::yes) const;
 
 private:

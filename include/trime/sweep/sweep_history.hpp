@@ -8,9 +8,9 @@
 
 namespace trime::sweep {
 
-/// @brief The methods that move points. `distmesh`: edges are bars that repel their ends. `cvd`: each point moves to
-/// the centroid of its Voronoi cell. `hybrid`: bars until the median of alpha stalls, then centroids, and finally steps
-/// that make the triangles more equilateral.
+/// @brief The methods that move points. `distmesh`: each edge acts like a bar that pushes its two ends apart. `cvd`:
+/// each point moves to the centroid of its Voronoi cell. `hybrid`: bars until the median of alpha stalls, then
+/// centroids, and finally steps that make the triangles more equilateral.
 enum class Method { distmesh, cvd, hybrid };
 
 /// @brief Why the sweeps of the last stage ended. `converged`: no point moved by more than 0.005 h. `quality_stalled`:

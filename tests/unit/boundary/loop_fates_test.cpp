@@ -179,7 +179,7 @@ TEST(LossWarning, BeginsWithTheNecksThatWereCut) {
   report_losses(given, meshed, simplified, {}, UniformSize(h), unit_lattice(), report);
   const std::string warning = loss_warning(report).text();
   EXPECT_TRUE(warning.starts_with("1 component became 2: 1 neck was cut, the widest 0.31 h at (0.35, 0.25); "
-                                  "meshing.connect = keep holds it"))
+                                  "meshing.connect = keep keeps it"))
       << warning;
 }
 
