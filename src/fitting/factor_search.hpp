@@ -10,10 +10,9 @@
 
 namespace trime::fitting {
 
-/// @brief Assumes that the number of points is a power of the factor, and computes the exponent from the last two
-/// trials. It uses only + - * / and sqrt, because ranks on different machines must take exactly the same steps. It
-/// interpolates 1 / sqrt(number), which is a linear function of the factor for the exponent -2 and almost linear for
-/// other exponents.
+/// @brief Assumes that the number of points is a power of the factor, which follows from the last two trials. It uses
+/// only + - * / and sqrt, because ranks on different machines must take exactly the same steps. It interpolates the
+/// inverse root of the number, which is a straight line for the power -2 and almost one for the others.
 class FactorSearch {
 public:
   explicit FactorSearch(double goal) : goal_(1 / std::sqrt(goal)) {}
