@@ -114,7 +114,7 @@ struct CleanupRules {
   /// [h] A site that has moved farther than this no longer rests.
   static constexpr double waking_move = 0.05;
 
-  // --- chords that stand for curves ---------------------------------------------------------------------------------
+  // --- boundary edges that replace curves ---------------------------------------------------------------------------
   /// [1] A curve counts as straight if its length is at most this multiple of the length of its boundary edge. The
   /// multiple allows only for rounding.
   static constexpr double straight_share = 1 + 1e-9;
@@ -144,7 +144,7 @@ struct CleanupRules {
   /// third operation and one winner in twenty exceed this limit.
   static constexpr int most_strain = 2;
 
-  // --- the contest of the operations --------------------------------------------------------------------------------
+  // --- the comparison of the operations -----------------------------------------------------------------------------
   /// [h] Sites within this distance of the bad triangle move in the first sweeps of a trial.
   static constexpr double nearest_reach = 2;
   /// [h] Sites within this distance of the bad triangle move in the last sweeps of a trial. Measured together with
