@@ -90,7 +90,7 @@ class Shapes(unittest.TestCase):
         config = self.config("small", circle(0.315, 0.454, 0.0343, "a") + "[sizing]\ntype = automatic\n",
                              domain="periodic_y = true\n", meshing="edge_length = 0.39\nmethod = cvd\n")
         text = self.passes(self.mesh(config, (0, 5)))
-        self.assertRegex(text, r"(?m)^ok +size .* not counted, because .* the size is lowered to 0.05 of the size asked for")
+        self.assertRegex(text, r"(?m)^ok +size .* because .* the size is lowered to 0.05 of the size asked for")
         config = self.config("jumps", rectangle(0.1, 0.9, 0.1, 0.9) +
                              "[sizing]\ntype = expression\nexpression = abs(sin(50*x))+1e-7\n", meshing="points = 60\n")
         text = self.passes(self.mesh(config, (0, 5)))
