@@ -213,25 +213,29 @@ mesh::Checks prove_boundary(const BoundaryTruth& truth, const mesh::DistributedM
   const double step = truth.lattice.step();
   return {
       count_check("irregular_boundary_points", 0, cycles.irregular,
-                  "boundary points without exactly one facet in and one out"),
-      count_check("boundary_cycles", loops, cycles.cycles, "loops of the simplified shape; closed cycles of facets"),
+                  "boundary points at which not exactly one facet ends and one begins"),
+      count_check("boundary_cycles", loops, cycles.cycles,
+                  "expected: loops of the simplified shape; found: closed cycles of facets"),
       count_check("foreign_tags", 0, cycles.changes + exchanged,
-                  "points where facets change their tag, and 1 if the tags of the cycles are not those of the loops"),
+                  "points at which the tag of the facets changes, plus 1 if the tags of cycles and loops differ"),
       count_check("corner_places", truth.sites.corners, found.corners,
-                  "corners that are vertices of the shape, bit for bit"),
-      limit_check(
-          "vertex_distance", std::max(CertificateRules::vertex_limit, step / truth.side), found.distance / truth.side,
-          "boundary vertices from the curves that were meshed, over the longer side of the container (at most)"),
+                  "corners of the mesh that are vertices of the shape, with equal bits"),
+      limit_check("vertex_distance", std::max(CertificateRules::vertex_limit, step / truth.side),
+                  found.distance / truth.side,
+                  "largest distance of a boundary vertex from the meshed curves over the longer side of the container "
+                  "(at most)"),
       limit_check(
           "generalisation", std::max(truth.within, CertificateRules::least_within), found.moved / truth.coarseness,
-          "the curves that were meshed from the shape's boundary, over the h for which they were simplified (at most)"),
+          "largest distance of the meshed curves from the shape over the h for which they were simplified (at most)"),
       limit_check("chord_deviation", CertificateRules::chord_limit, found.deviation,
-                  "the shape's boundary from the facets, over h as it was asked for (at most)"),
-      limit_check("arc_deviation", 1, found.of_arcs,
-                  "arcs of circles from their facets, over 1.08 l^2/8R + h/1000, facet l, radius R (at most)"),
-      limit_check("area_residual", CertificateRules::area_limit + step * truth.meshed.length() / shape_area,
-                  area_residual(truth, found.area.value(truth.lattice), shape_area),
-                  "mesh, with what lies between facets and curve, from the shape, over the shape's area (at most)")};
+                  "largest distance of the boundary of the shape from the facets over the h asked for (at most)"),
+      limit_check(
+          "arc_deviation", 1, found.of_arcs,
+          "largest distance of an arc of radius R from its facet of length l over 1.08 l^2/8R + h/1000 (at most)"),
+      limit_check(
+          "area_residual", CertificateRules::area_limit + step * truth.meshed.length() / shape_area,
+          area_residual(truth, found.area.value(truth.lattice), shape_area),
+          "area of mesh and slivers between facets and curves, minus area of the curves, over the latter (at most)")};
 }
 
 } // namespace trime::certificate

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The part of the certificate that compares the boundary of the mesh with the boundary of the shape: vertices lie on
-// the curve, chords lie near it, cycles of facets are its loops, and the areas agree.
+// the curve, boundary edges lie near it, cycles of boundary edges correspond to loops, and the areas agree.
 #pragma once
 
 #include "polygon/polygon.hpp"
@@ -19,7 +19,8 @@ namespace trime::certificate {
 
 __extension__ using Int128 = __int128;
 
-/// Twice an area in squared lattice steps. It is an integer, which ranks exchange in three parts of 40 bits and a rest.
+/// Twice an area in squared lattice steps. It is an integer, which ranks exchange in three parts of 40 bits and a
+/// remainder.
 struct ExactArea {
   Int128 twice = 0;
 
@@ -29,7 +30,7 @@ struct ExactArea {
     const Int128 vx = lattice.steps(r.x - p.x), vy = lattice.steps(r.y - p.y);
     twice += ux * vy - uy * vx;
   }
-  /// Adds any area, rounded to half a squared step, which is at most 2^-86 of the area of the container.
+  /// Adds any area, rounded to half a squared lattice step, which is at most 2^-86 of the area of the container.
   void add(double area, const geometry::Lattice& lattice) {
     twice += static_cast<Int128>(2 * area * lattice.inverse_step() * lattice.inverse_step());
   }
@@ -48,26 +49,27 @@ struct ExactArea {
   }
 };
 
-/// The data with which the boundary of a mesh is compared. All of it is replicated.
+/// The data with which the boundary of a mesh is compared. All data are the same on every rank.
 struct BoundaryTruth {
   const geometry::Boundary& shape;     ///< the boundary as it was given
-  const geometry::Boundary& meshed;    ///< the boundary as it was laid out: with fixed points as corners
+  const geometry::Boundary& meshed;    ///< the boundary that was meshed, with fixed points as corners
   const polygon::BoundarySites& sites; ///< vertices of the mesh on `meshed`
   const sizing::SizeField& size;       ///< h of the mesh
   const sizing::SizeField&
-      asked; ///< h before it was lowered: the distance of chords from left-out corners is measured by it
+      asked; ///< size before it was lowered; distances from boundary edges to left-out corners are compared with it
   const geometry::Lattice& lattice;
   double side;           ///< longer side of the container
   double mesh_area;      ///< area of all triangles
-  double coarseness = 1; ///< h for which the boundary was simplified, over h of the mesh
-  double within = 0.5;   ///< [that h] how far simplification may have moved the boundary
+  double coarseness = 1; ///< h for which the boundary was simplified, divided by h of the mesh
+  double within = 0.5;   ///< largest distance by which simplification may have moved the boundary, in units of that h
 };
 
-/// @brief Makes nine checks from the arrays of the mesh that will be written, the given boundary and the boundary that
-/// was laid out. Each rank checks its share of the sites and of the pieces. Every rank holds trees over all pieces, 60
-/// bytes per piece: O(pieces + (sites + points of the rank) log(pieces) / ranks). For facets see count_cycles. @note
-/// Collective.
-/// @throws the errors of a size field of the user, on all ranks together
+/// @brief Makes nine checks from the arrays of the mesh that will be written, the given boundary and the meshed
+/// boundary. Each rank checks its share of the sites and of the pieces. Every rank holds trees over all pieces, which
+/// take 60 bytes per piece. Cost: O(pieces + (sites + points of the rank) log(pieces) / ranks). count_cycles describes
+/// the cost for boundary edges.
+/// @note Collective.
+/// @throws the errors of a user's size field, on all ranks together
 mesh::Checks prove_boundary(const BoundaryTruth& truth, const mesh::DistributedMesh& mesh,
                             const comm::Communicator& comm);
 

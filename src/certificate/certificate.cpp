@@ -303,46 +303,54 @@ mesh::Checks triangle_checks(const Counts& counts, const mesh::DistributedMesh& 
   const std::int64_t sides = 3 * counts.triangles + chords; // of triangles and facets: odd numbers are wrong, too
   const bool changed = expectation.topology_changed;
   const auto written = [](bool is_same, GlobalId total) { return is_same ? total : -1; };
-  return {check("incomplete_fans", 0, counts.incomplete, "manifold: each site has one unbroken fan of triangles"),
-          check("star_listings", 3 * counts.triangles, counts.listings, "every triangle is listed by its three stars"),
-          check("star_disagreements", 0, 3 * counts.hash_of_triangles != counts.hash_of_listings,
-                "all three stars list the same triangle"),
-          check("written_points", counts.points,
-                written(counts.hash_of_written_points == counts.hash_of_points, mesh.point_slab.total),
-                "the points to be written are the proven ones, bit for bit and in this order"),
-          check("written_triangles", counts.triangles,
-                written(counts.hash_of_written == counts.hash_of_triangles, mesh.triangle_slab.total),
-                "the triangles to be written are these"),
-          check("written_facets", chords,
-                written(counts.hash_of_written_facets == counts.hash_of_facets, mesh.facet_slab.total),
-                "the facets to be written are these, with their tags"),
-          check("not_positive", 0, counts.not_positive, "triangles that are not counter-clockwise"),
-          check("euler_characteristic", (changed ? expectation.meshed : expectation.shape).euler_characteristic(),
-                counts.points - counts.edges + counts.triangles,
-                changed ? "of the simplified shape; in the plane, components minus holes"
-                        : "of the shape as it was given; in the plane, components minus holes"),
-          {"edge_count", 0.5 * static_cast<double>(sides), static_cast<double>(counts.edges), sides == 2 * counts.edges,
-           "inner edges have two triangles, facets one"},
-          check("not_delaunay", 0, counts.not_delaunay, "edges that are not locally Delaunay (exact test)"),
-          check("boundary_segments", chords, counts.facets, "chords that are edges of the mesh")};
+  return {
+      check("incomplete_fans", 0, counts.incomplete, "points whose triangles do not form one fan without gaps"),
+      check("star_listings", 3 * counts.triangles, counts.listings,
+            "entries in the triangle lists of all points; each triangle is listed by its three vertices"),
+      check("star_disagreements", 0, 3 * counts.hash_of_triangles != counts.hash_of_listings,
+            "0 if the three vertices of each triangle list the same triangle, otherwise 1"),
+      check("written_points", counts.points,
+            written(counts.hash_of_written_points == counts.hash_of_points, mesh.point_slab.total),
+            "points in the written arrays, if equal to the points checked here bit for bit and in order; otherwise -1"),
+      check("written_triangles", counts.triangles,
+            written(counts.hash_of_written == counts.hash_of_triangles, mesh.triangle_slab.total),
+            "triangles in the written arrays, if equal to the triangles checked here; otherwise -1"),
+      check("written_facets", chords,
+            written(counts.hash_of_written_facets == counts.hash_of_facets, mesh.facet_slab.total),
+            "facets in the written arrays, if they and their tags equal those checked here; otherwise -1"),
+      check("not_positive", 0, counts.not_positive, "triangles that are not counter-clockwise"),
+      check(
+          "euler_characteristic", (changed ? expectation.meshed : expectation.shape).euler_characteristic(),
+          counts.points - counts.edges + counts.triangles,
+          changed
+              ? "points - edges + triangles; expected: components minus holes of the simplified shape (if not periodic)"
+              : "points - edges + triangles; expected: components minus holes of the given shape (if not periodic)"),
+      {"edge_count", 0.5 * static_cast<double>(sides), static_cast<double>(counts.edges), sides == 2 * counts.edges,
+       "edges of the mesh; each inner edge has two triangles, each facet one"},
+      check("not_delaunay", 0, counts.not_delaunay, "edges that are not locally Delaunay (exact test)"),
+      check("boundary_segments", chords, counts.facets,
+            "segments between neighbouring boundary points that are edges of the mesh")};
 }
 
 /// Adds the checks of the points that the mesh must have, and of its area.
 void add_point_checks(const Counts& counts, const StageView& view, std::int64_t junctions, mesh::Checks& checks) {
   checks.push_back(
-      check("corners", view.polygon.corners, counts.corners, "corners that are vertices, bit for bit on the lattice"));
+      check("corners", view.polygon.corners, counts.corners,
+            "corners that are vertices of the mesh, with equal bits after rounding to the coordinate lattice"));
   const std::int64_t kept = junctions - view.polygon.left_out;
   checks.push_back(
       {"turns_kept", static_cast<double>(std::max<std::int64_t>(0, kept)), static_cast<double>(counts.junctions),
        counts.junctions >= kept,
-       "vertices where the curves turn by more than corner_angle or parts meet: at least all but those left out"});
+       "vertices at turns above corner_angle and where parts meet; at least all such places minus corners left out"});
   if (!view.fixed.empty())
-    checks.push_back(check("fixed_points", static_cast<std::int64_t>(view.fixed.size()), counts.fixed,
-                           "fixed points that are vertices, bit for bit on the lattice"));
+    checks.push_back(
+        check("fixed_points", static_cast<std::int64_t>(view.fixed.size()), counts.fixed,
+              "fixed points that are vertices of the mesh, with equal bits after rounding to the coordinate lattice"));
   checks.push_back(check("unused_points", 0, counts.unused, "points without a triangle"));
   const ExactArea polygon = polygon_area(view.polygon, view.lattice);
   checks.push_back({"area", polygon.value(view.lattice), counts.area.value(view.lattice),
-                    polygon.twice == counts.area.twice, "triangles fill the boundary polygon (exact integers)"});
+                    polygon.twice == counts.area.twice,
+                    "area of all triangles; expected is the area inside the facets (exact integers)"});
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The checks, in the order in which they are made. Each group of checks relies on those before it.
+// The checks of trime_check, in the order in which they are made. Each group of checks relies on the groups before it.
 #pragma once
 
 #include "mesh.hpp"
@@ -12,22 +12,22 @@
 
 namespace trime_check {
 
-/// One of the closed curves of the boundary.
+/// One of the closed curves of the boundary of the mesh.
 struct Loop {
-  std::vector<std::size_t> facets; ///< numbers of the facets, in the order along the loop
+  std::vector<std::size_t> facets; ///< numbers of its facets, in the order along the loop
   std::string kind;                ///< "outer" (around a component), "hole", or "band" (around a periodic container)
 };
 
-/// Counts to compare with the numbers in the file.
+/// Counts from the arrays, which are compared with the numbers that the file states.
 struct Counted {
   std::int64_t edges = 0, loops = 0, clockwise = 0, not_delaunay = 0, components = 0;
   std::int64_t euler_characteristic = 0, unused = 0, corners = 0;
   double area = 0;
-  std::vector<Loop> boundary; ///< empty if the facets are not closed simple loops
+  std::vector<Loop> boundary; ///< empty if the facets do not form closed loops without self-crossings
 };
 
-/// Checks that ids are in range and in order, that coordinates are finite, that views equal the arrays, and the hash.
-/// Returns false if ids or coordinates are so wrong that nothing more can be checked.
+/// Checks that ids are in range and in order, that coordinates are finite, that the copies for other readers equal the
+/// arrays, and the hash. Returns false if ids or coordinates are so wrong that nothing more can be checked.
 bool check_arrays(const StoredFile& file, const Mesh& mesh, Report& report);
 
 /// Checks orientation, edges, Delaunay property, loops of facets, Euler characteristic, area and tags.
@@ -36,10 +36,10 @@ Counted check_surface(const StoredFile& file, const Mesh& mesh, Report& report);
 /// Checks the sizes of points and facets.
 void check_sizes(const StoredFile& file, const Mesh& mesh, Report& report);
 
-/// Checks the tables and attributes of the mesh: labels, kinds and names of loops, counts, format.
+/// Checks the tables and attributes of the mesh: labels, kinds and names of loops, counts, and format version.
 void check_tables(const StoredFile& file, const Mesh& mesh, const Counted& counted, Report& report);
 
-/// Checks alpha, beta, sizes, the quality summary, and the stored certificate.
+/// Checks alpha, beta, sizes, the summary of the quality, and the stored certificate.
 void check_summary(const StoredFile& file, const Mesh& mesh, const Counted& counted, Report& report);
 
 /// @brief Checks corners, fixed points and boundary vertices against the shape of a config.

@@ -71,7 +71,8 @@ std::optional<double> ConfigText::number(const std::string& section, const std::
 Point ConfigText::point(const std::string& section, const std::string& key) const {
   const std::vector<double> numbers = numbers_of(value(section, key));
   if (numbers.size() != 2)
-    throw Failure(ExitCode::usage, fmt::format("the config has no two numbers '{}' in [{}]", key, section));
+    throw Failure(ExitCode::usage,
+                  fmt::format("the config must have two numbers for the key '{}' in [{}]", key, section));
   return {numbers[0], numbers[1]};
 }
 
@@ -144,7 +145,8 @@ private:
     if (next() != '(') {
       const auto found = parts_.find(name);
       if (found == parts_.end())
-        throw Failure(ExitCode::usage, fmt::format("region '{}': no part is called '{}'", text_, name));
+        throw Failure(ExitCode::usage,
+                      fmt::format("region '{}': the config has no part with the name '{}'", text_, name));
       nodes_.push_back({Region::Kind::part, found->second});
       return nodes_.size() - 1;
     }

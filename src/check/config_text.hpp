@@ -13,15 +13,16 @@
 
 namespace trime_check {
 
-/// `[section] key = value`; a comment starts with `;` or `#` at the start of a line or after a blank.
+/// The text of a config with lines `[section]` and `key = value`. A comment starts with `;` or `#`, at the start of a
+/// line or after a blank.
 class ConfigText {
 public:
-  /// @param folder the folder to which relative paths refer
+  /// @param folder folder relative to which paths in the config are read
   ConfigText(const std::string& text, std::string folder);
 
-  /// Names of the parts, which are the sections [shape.NAME], in their order.
+  /// The names of the parts in the order of their sections [shape.NAME].
   const std::vector<std::string>& parts() const { return parts_; }
-  /// Returns the value; empty if the key is missing or its value is `auto` or `none`.
+  /// Returns the value of a key; empty if the key is missing or its value is `auto` or `none`.
   std::string value(const std::string& section, const std::string& key) const;
   std::optional<double> number(const std::string& section, const std::string& key) const;
   bool is_true(const std::string& section, const std::string& key) const { return value(section, key) == "true"; }
@@ -39,43 +40,43 @@ private:
 std::optional<std::string> read_text(const std::string& path);
 
 using Ring = std::vector<Point>;
-/// @brief Returns the rings of a file of `x y` lines. A blank line or one with `>` ends a ring, `#` starts a comment,
-/// and a first line without numbers is skipped.
+/// @brief Returns the rings of a file with lines `x y`. A blank line or a line with `>` ends a ring, `#` starts a
+/// comment, and a first line without numbers is skipped.
 std::vector<Ring> read_rings(const std::string& text);
 
-/// Numbers of parts by their names.
+/// The number of each part by its name.
 using PartNumbers = std::unordered_map<std::string, std::size_t>;
 
-/// @brief Says whether a place that lies in some of the parts lies in the region. Changing one part costs O(depth of
-/// the tree).
+/// @brief The region formula of a config. It says whether a place that lies in some of the parts lies in the region. If
+/// the place enters or leaves one part, the update costs O(depth of the tree).
 class Region {
 public:
   static constexpr std::size_t none = ~std::size_t{0};
   enum class Kind { part, unite, intersect, subtract };
   struct Node {
     Kind kind = Kind::part;
-    std::size_t part = none;           ///< part of a leaf
-    std::size_t parent = none;         ///< comes after all its children
+    std::size_t part = none;           ///< number of the part, for a leaf
+    std::size_t parent = none;         ///< number of the parent, which comes after all its children
     bool is_first = false;             ///< first child of its parent
-    std::size_t children = 0, set = 0; ///< set counts the children that contain the place; for a leaf it is 1 or 0
+    std::size_t children = 0, set = 0; ///< `set`: number of children that contain the place; for a leaf, 1 or 0
     bool first_is_set = false;
   };
 
   /// @throws Failure (exit 2) if the text is not a region of these parts
   Region(const std::string& text, const PartNumbers& parts);
 
-  /// Sets whether the place is in this part. At first it is in no part.
+  /// Sets whether the place lies in this part. At the beginning it lies in no part.
   void set(std::size_t part, bool inside);
   bool uses(std::size_t part) const { return !leaves_[part].empty(); }
   bool contains() const { return holds(nodes_.back()); }
-  /// The nodes: children come before their parents, and the last node is the root.
+  /// The nodes of the formula: children come before their parents, and the last node is the root.
   const std::vector<Node>& nodes() const { return nodes_; }
 
 private:
   static bool holds(const Node& node);
 
   std::vector<Node> nodes_;
-  std::vector<std::vector<std::size_t>> leaves_; // leaves of each part
+  std::vector<std::vector<std::size_t>> leaves_; // by part: its leaves
 };
 
 } // namespace trime_check

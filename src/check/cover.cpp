@@ -102,7 +102,7 @@ private:
         outside.note([&] { return place_of(mesh_, t); });
     }
     report_.none("outside", outside,
-                 fmt::format("triangles whose middle lies outside of the shape by more than {:.3g} h", changes_.stray));
+                 fmt::format("triangles whose centroid lies outside the shape by more than {:.3g} h", changes_.stray));
   }
 
   bool bounds_shape(const CurveSample& sample) const {
@@ -129,8 +129,8 @@ private:
 
   void check_curves() {
     if (!changes_.are_known) {
-      report_.skip("uncovered_curves",
-                   "a step of a run, or a file without `rings`, does not say which loops were simplified");
+      report_.skip("uncovered_curves", "the file does not say which loops were simplified, because it is an "
+                                       "intermediate step of a run or has no table `rings`");
       return;
     }
     const BoxTree changed = boxes_of(changes_.loops);
@@ -151,12 +151,12 @@ private:
           bare.note([&] { return fmt::format("{} of {}", place_of(sample.place), part.name); });
       }
     report_.none("uncovered_curves", bare,
-                 fmt::format("of {} places on the curves around the shape those without a facet within {:.3g} h",
+                 fmt::format("places without a facet within {1:.3g} h, among {0} places on the curves around the shape",
                              judged, changes_.stray));
     if (left_out > 0)
       report_.skip(
           "uncovered_loops",
-          fmt::format("{} places on curves are without a facet where loops were simplified or dropped, {} of them",
+          fmt::format("{} places on curves have no facet nearby, because {} loops there were simplified or dropped",
                       left_out, changes_.loops.size()));
   }
 
@@ -201,16 +201,16 @@ private:
           bare.note([&] { return place_of(p); });
       }
     const std::string narrow =
-        left_out == 0
-            ? ""
-            : fmt::format("; {} within {:.3g} of curves are left out, since loops were simplified", left_out, depth);
+        left_out == 0 ? ""
+                      : fmt::format("; {} more within {:.3g} of curves are not counted, because loops were simplified",
+                                    left_out, depth);
     if (judged == 0)
-      report_.skip("uncovered_places", "no place of a grid over the shape lies in it");
+      report_.skip("uncovered_places", "no node of the test grid lies in the shape");
     else
       report_.none(
           "uncovered_places", bare,
-          fmt::format("of {} places in the shape those in no triangle, and farther than {:.3g} h from facets{}", judged,
-                      changes_.stray, narrow));
+          fmt::format("places in no triangle and farther than {1:.3g} h from facets, among {0} places in the shape{2}",
+                      judged, changes_.stray, narrow));
   }
 
   bool is_beside_facet(Point p) const {

@@ -9,21 +9,21 @@
 
 namespace trime_check {
 
-/// A loop of the shape that was changed. All of it lies within half of its length from a place.
+/// A loop of the shape that simplification changed. All of it lies within half of its length from `place`.
 struct ChangedLoop {
   Point place;
   double length = 0;
 };
 
-/// How the shape was simplified before it was meshed.
+/// What simplification changed in the shape before it was meshed.
 struct Changes {
-  bool are_known = true; ///< false if the file is a step of a run, which does not store the changes
+  bool are_known = true; ///< false if the file is an intermediate step of a run, which does not store the changes
   std::vector<ChangedLoop> loops;
-  double stray = 0; ///< [h asked for] largest distance of the boundary, chords included, from the curves
+  double stray = 0; ///< [h asked for] largest distance of the boundary of the mesh from the curves of the shape
 };
 
-/// @brief Finds triangles outside the shape, curves around it without facets, and places in it without a triangle. O(n
-/// log n) for n triangles, facets and vertices of curves.
+/// @brief Finds triangles outside the shape, curves of the shape without facets, and places inside the shape without a
+/// triangle. Cost: O(n log n) for n triangles, facets and vertices of curves.
 /// @pre all parts of the region have curves
 void check_cover(const Shape& shape, const Mesh& mesh, const Changes& changes, Report& report);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The exact curves of the parts of a shape, with their distances, insides, corners and samples.
+// The exact curves of the parts of a shape: distances, points inside, corners and samples.
 #pragma once
 
 #include "config_text.hpp"
@@ -13,7 +13,7 @@ struct Box {
   Point min, max;
 };
 
-/// The middle of a piece of a curve, and a unit vector perpendicular to the curve.
+/// The middle of a piece of a curve, with a unit vector perpendicular to the curve.
 struct CurveSample {
   Point place, normal;
   double length = 0; ///< length of the piece
@@ -26,16 +26,17 @@ public:
   virtual double distance(Point p) const = 0;
   virtual bool contains(Point p) const = 0;
   virtual Box box() const = 0;
-  /// Returns the vertices that turn by more than this number of degrees.
+  /// Returns the vertices at which the curve turns by more than this number of degrees.
   virtual std::vector<Point> corners(double degrees) const = 0;
   virtual double length() const = 0;
-  /// Returns samples of pieces that are no longer than `spacing` and do not cross a vertex.
+  /// Returns samples, one for each piece of the curve. A piece is at most `spacing` long and does not contain a vertex
+  /// in its interior.
   virtual std::vector<CurveSample> samples(double spacing) const = 0;
 };
 
-/// Returns the box of all vertices.
+/// Returns the bounding box of all vertices.
 Box box_of(const std::vector<Ring>& rings);
-/// Returns the corners of a box as a ring.
+/// Returns the four corners of a box as a ring.
 std::vector<Ring> rectangle(const Box& box);
 
 std::unique_ptr<Curve> make_circle(Point center, double radius);

@@ -10,10 +10,10 @@
 
 namespace trime_check {
 
-/// Returns whether a, b, c is a left turn. Exact.
+/// Returns whether the path from a over b to c turns left. Exact.
 bool is_left_turn(Point a, Point b, Point c);
-/// Returns whether d lies inside the circle through a, b, c. A point on the circle is outside. Exact. @pre a, b, c is a
-/// left turn
+/// Returns whether d lies inside the circle through a, b, c; false if d lies on the circle. Exact. @pre the path a, b,
+/// c turns left
 bool is_inside_circle(Point a, Point b, Point c, Point d);
 
 /// Returns whether an angle of the triangle a, b, c is larger than 90 degrees. Exact.
@@ -26,10 +26,10 @@ class IntegerPlane {
 public:
   /// @pre all coordinates are finite
   explicit IntegerPlane(const Mesh& mesh);
-  /// Returns twice the signed area of the triangle a, b, c in squared units. Exact.
+  /// Returns twice the signed area of the triangle a, b, c, in squares of the integer unit. Exact.
   Integer twice_area(Point a, Point b, Point c) const;
   Integer cross(Point u, Point v) const;
-  /// Returns an area in the units of the file.
+  /// Returns the area in the units of the file. @param twice result of twice_area()
   double area(const Integer& twice) const;
 
 private:

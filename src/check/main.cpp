@@ -35,7 +35,7 @@ int run(const std::vector<std::string>& arguments) {
   }
   if (arguments.empty() || arguments.size() > 2 || arguments[0].starts_with('-'))
     throw trime_check::Failure(trime_check::ExitCode::usage,
-                               "expected FILE.h5 and perhaps a config; see trime_check --help");
+                               "expected a mesh file FILE.h5 and optionally a config file; see trime_check --help");
   const trime_check::StoredFile file(arguments[0]);
   trime_check::Mesh mesh;
   trime_check::Report report;
@@ -45,7 +45,7 @@ int run(const std::vector<std::string>& arguments) {
     trime_check::check_tables(file, mesh, counted, report);
     trime_check::check_shape(file, mesh, arguments.size() > 1 ? arguments[1] : "", report);
   } else
-    report.skip("geometry", "the arrays are such that nothing can be computed from them");
+    report.skip("geometry", "nothing can be computed from these arrays");
   fmt::print("{}: {} points, {} triangles, {} facets\n{}", arguments[0], mesh.points.size(), mesh.triangles.size(),
              mesh.facets.size(), report.text());
   return static_cast<int>(report.all_passed() ? trime_check::ExitCode::sound : trime_check::ExitCode::damaged);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The arrays of a mesh file as they are stored, and images of points in periodic containers.
+// The arrays of a mesh file as they are stored, and periodic images of points.
 #pragma once
 
 #include <fmt/format.h>
@@ -25,13 +25,13 @@ inline Point operator+(Point a, Point b) {
 using Triangle = std::array<std::int64_t, 3>;
 using Facet = std::array<std::int64_t, 2>;
 
-/// Periods of the container; 0 along axes that are not periodic.
+/// Periods of the container; 0 along an axis that is not periodic.
 struct Periods {
   double x = 0, y = 0;
 
   bool any() const { return x > 0 || y > 0; }
-  /// Returns the image of p nearest to q. Exact for coordinates on the lattice, because the periods are multiples of
-  /// its step.
+  /// Returns the periodic image of p that is nearest to q. Exact for points of the coordinate lattice, because the
+  /// periods are multiples of its step.
   Point near(Point p, Point q) const {
     const auto shift = [](double d, double period) { return period > 0 ? -period * std::round(d / period) : 0.0; };
     return {p.x + shift(p.x - q.x, x), p.y + shift(p.y - q.y, y)};
@@ -43,23 +43,23 @@ struct Mesh {
   std::vector<Triangle> triangles;
   std::vector<Facet> facets;
   std::vector<std::int64_t> facet_tags, facet_parts, facet_labels;
-  std::vector<std::int64_t> facet_markers; ///< empty if no part has any
+  std::vector<std::int64_t> facet_markers; ///< empty if no part of the shape has markers
   std::vector<double> asked_sizes;
 
   std::vector<double> alpha, beta, size;
   std::vector<std::int64_t> region, boundary, fixed;
 
   bool has_vtk = true,
-       has_plain = true; ///< whether the file has /VTKHDF and /Mesh/mesh; a run may leave out one of them
-  // The views are copies of points and triangles for other readers.
+       has_plain = true; ///< whether the file has the groups /VTKHDF and /Mesh/mesh; a run may leave out one of the two
+  // Copies of points and triangles in the file, in the layout that other readers expect.
   std::vector<double> vtk_points, petsc_points;
   std::vector<std::int64_t> connectivity, offsets, types,
-      counts; ///< counts are the numbers of points, cells and connectivity entries
+      counts; ///< `counts`: numbers of points, cells and connectivity entries
 
   Periods periods;
 
   Point at(std::int64_t id) const { return points[static_cast<std::size_t>(id)]; }
-  /// Returns the corners of a triangle at images that are next to each other.
+  /// Returns the corners of a triangle at periodic images that are next to each other.
   std::array<Point, 3> corners(const Triangle& t) const {
     const Point a = at(t[0]);
     return {a, periods.near(at(t[1]), a), periods.near(at(t[2]), a)};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Prints the report with one line per check.
+// Collects the results of the checks and prints one line per check.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +9,10 @@
 
 namespace trime_check {
 
-/// Exit codes of trime_check, with the numbers of trime_mpi where both have them.
+/// Exit codes of trime_check. Codes that trime_mpi has, too, mean the same there.
 enum class ExitCode : int { sound = 0, internal_error = 1, usage = 2, file = 4, damaged = 5 };
 
-/// An error that ends the program before it can judge anything.
+/// An error that ends the program before it has judged the file.
 class Failure : public std::runtime_error {
 public:
   Failure(ExitCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
@@ -22,12 +22,12 @@ private:
   ExitCode code_;
 };
 
-/// How often something is wrong, and the first or the worst place.
+/// How often a check failed, and the first or the worst place.
 struct Tally {
   std::int64_t count = 0;
   std::string place;
 
-  /// @param where returns the place; called only once
+  /// @param where function that returns the place; it is called only for the first failure
   template <class Where>
   void note(const Where& where) {
     if (count++ == 0)
@@ -41,12 +41,12 @@ public:
   /// @param meaning describes in words what was compared
   void add(const std::string& name, bool passed, const std::string& expected, const std::string& found,
            const std::string& meaning, const std::string& place = "");
-  /// Adds a check that expects a count of zero.
+  /// Adds a check that passes if a count is zero.
   void none(const std::string& name, const Tally& tally, const std::string& meaning);
-  /// Adds a check that two numbers are equal.
+  /// Adds a check that passes if two numbers are equal.
   void equal(const std::string& name, std::int64_t expected, std::int64_t found, const std::string& meaning,
              const std::string& place = "");
-  /// Notes what could not be checked, and why. This is not a failure.
+  /// Notes a check that could not be made, and the reason. This is not a failure.
   void skip(const std::string& name, const std::string& reason);
 
   std::string text() const;

@@ -70,7 +70,7 @@ Source read_part(const ConfigText& config, const std::string& name) {
   const auto number = [&](const char* key) {
     if (const std::optional<double> value = config.number(section, key))
       return *value;
-    throw Failure(ExitCode::usage, fmt::format("the config has no number '{}' in [{}]", key, section));
+    throw Failure(ExitCode::usage, fmt::format("the config must have a number for the key '{}' in [{}]", key, section));
   };
   if (part.type == "rectangle")
     part.rings = rectangle({{number("x_min"), number("y_min")}, {number("x_max"), number("y_max")}});
@@ -83,15 +83,15 @@ Source read_part(const ConfigText& config, const std::string& name) {
     const std::string path = config.path(section, "file");
     const std::optional<std::string> text = read_text(path);
     if (is_projected(config))
-      part.reason = fmt::format("{}: it is projected", path);
+      part.reason = fmt::format("{}: trime_check cannot project its coordinates", path);
     else if (!path.ends_with(".xy") && !path.ends_with(".txt") && !path.ends_with(".dat"))
-      part.reason = fmt::format("{}: only contours of 'x y' lines are read here", path);
+      part.reason = fmt::format("{}: trime_check reads only contours with lines 'x y'", path);
     else if (!text)
       part.reason = fmt::format("{} cannot be read", path);
     else if (part.rings = read_rings(*text); part.rings.empty())
       part.reason = fmt::format("{} has no rings", path);
   } else
-    part.reason = fmt::format("a part of type '{}' has no curve", part.type);
+    part.reason = fmt::format("trime_check cannot compute the curve of a part of type '{}'", part.type);
   return part;
 }
 
@@ -286,7 +286,7 @@ void set_container(Shape& shape, const ConfigText& config, const std::vector<Sou
   const std::optional<Box> container = container_of(config, sources, *shape.region);
   shape.container = container ? *container : box_of({mesh});
   if (!container)
-    shape.container_reason = "it follows from a contour that is not read here";
+    shape.container_reason = "it depends on a contour that trime_check cannot read";
   shape.step = lattice_step(shape);
   const auto period = [&](const char* key, double side) {
     return config.is_true("domain", key) ? std::round(side / shape.step) * shape.step : 0;
@@ -304,7 +304,7 @@ void read_fixed_points(Shape& shape, const ConfigText& config) {
   if (!text)
     shape.fixed_points_reason = fmt::format("{} cannot be read", points);
   else if (is_projected(config))
-    shape.fixed_points_reason = fmt::format("{}: they are projected", points);
+    shape.fixed_points_reason = fmt::format("{}: trime_check cannot project its coordinates", points);
   if (text)
     for (const Ring& ring : read_rings(*text + "\n"))
       shape.fixed_points.insert(shape.fixed_points.end(), ring.begin(), ring.end());
@@ -321,7 +321,8 @@ void add_part(Shape& shape, const Source& source, bool has_fixed_points) {
       for (Point& p : shape.fixed_points)
         p = fit.apply(p);
   } else if (has_fixed_points)
-    shape.fixed_points_reason = source.reason.empty() ? "the part they go with is not normalised" : source.reason;
+    shape.fixed_points_reason =
+        source.reason.empty() ? "the part that fixed_points_normalize_with names is not normalised" : source.reason;
   if (source.type == "circle")
     part.curve = make_circle(source.center, source.radius);
   else if (source.reason.empty())

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads the shape of a config: its parts, container and region.
+// Reads the shape of a config: its parts, its container and its region.
 #pragma once
 
 #include "config_text.hpp"
@@ -13,7 +13,7 @@ namespace trime_check {
 
 struct Part {
   std::string name;
-  std::unique_ptr<Curve> curve; ///< empty for a formula, or for a file that trime_check does not read
+  std::unique_ptr<Curve> curve; ///< empty for a formula, or for a kind of file that trime_check cannot read
   std::string reason;           ///< why there is no curve
 };
 
@@ -30,45 +30,51 @@ private:
   std::unique_ptr<Tree> tree_;
 };
 
-/// @brief The parts of a config in its container; `domain` is the last.
+/// @brief The parts of a config in its container. The part `domain`, which is the container itself, is the last.
 struct Shape {
   std::vector<Part> parts;
   PartNumbers numbers; ///< numbers of the parts, by name
   std::unique_ptr<PartFinder> finder;
   std::unique_ptr<Region> region;
   Box container;
-  std::string container_reason; ///< why the container is not known; then `container` is the box of the mesh
+  std::string
+      container_reason; ///< why the container is not known; in that case `container` is the bounding box of the mesh
   Periods periods;
-  double step = 0; ///< step of the lattice on which all coordinates lie
+  double step = 0; ///< step of the coordinate lattice: all coordinates of the mesh are multiples of it
   std::vector<Point> fixed_points;
   std::string fixed_points_reason; ///< why the fixed points are not known
 
   double side() const { return std::fmax(container.max.x - container.min.x, container.max.y - container.min.y); }
-  /// @brief Returns the part with the name in a mesh file: the part with this name, or a contour that is not read here,
-  /// followed by a point and a name or marker of its features. Returns null if no part fits.
+  /// @brief Returns the part to which a label of a mesh file belongs. A label is the name of a part, or the name of a
+  /// contour that trime_check does not read, followed by a point and a name or marker of its features. Returns null if
+  /// no part has that name.
   const Part* part_of_label(const std::string& label) const;
   /// Returns whether the region contains this part.
   bool is_used(const Part& part) const { return region->uses(static_cast<std::size_t>(&part - parts.data())); }
-  /// Returns the distance from a part, including its periodic images.
+  /// Returns the distance of p from the curve of a part, including its periodic images.
   double distance(const Part& part, Point p) const;
-  /// Returns the distance from the nearest part of the region if it is at most `limit`, otherwise a larger number.
+  /// Returns the distance from the nearest part that the region uses if it is at most `limit`, otherwise a larger
+  /// number.
   double distance_from_any(Point p, double limit) const;
   /// Returns whether p lies in the shape. @pre all parts of the region have curves
   bool contains(Point p) const;
-  /// Returns whether the curve of another part of the region, or an image of this one, passes within `limit` of p. Then
-  /// a corner of this part need not be a corner of the shape.
+  /// Returns whether the curve of another part of the region, or a periodic image of this curve, passes within `limit`
+  /// of p. If so, a corner of this part at p need not be a corner of the shape.
   bool meets_another(const Part& part, Point p, double limit) const;
-  /// Returns whether it matters for the shape at p if p lies in this part. @pre all parts have curves
+  /// Returns whether p would change between inside and outside of the shape if it entered or left this part. @pre all
+  /// parts have curves
   bool matters(const Part& part, Point p) const;
 
-  /// Returns the image of p in the container, then its images where parts that stick out of the container may be.
+  /// Returns the image of p in the container, followed by its other periodic images, because a part may extend beyond
+  /// the container.
   std::vector<Point> images(Point p) const;
 
 private:
   const Part* part(const std::string& name) const;
 };
 
-/// @param mesh points of the mesh: their box replaces a container that depends on files that trime_check does not read
+/// @param mesh points of the mesh; their bounding box replaces a container that depends on files that trime_check
+/// cannot read
 /// @throws Failure (exit 2) if the config is incomplete
 Shape make_shape(const ConfigText& config, const std::vector<Point>& mesh);
 

@@ -99,13 +99,14 @@ private:
     report_.add("periods", same, text(shape_.periods), text(mesh_.periods), "periods of the container, 0 for none");
     if (!shape_.container_reason.empty()) {
       report_.skip("container", shape_.container_reason);
-      report_.skip("lattice", "its step follows from the container");
+      report_.skip("lattice", "the step of the coordinate lattice depends on the container, which is not known");
       return;
     }
     report_.none("container", outside,
                  fmt::format("points outside of the container from {} to {}", place_of(box.min), place_of(box.max)));
     report_.none("lattice", off,
-                 fmt::format("points that are not multiples of {:.6g}, the step of its lattice", shape_.step));
+                 fmt::format("points whose coordinates are not multiples of {:.6g}, the step of the coordinate lattice",
+                             shape_.step));
   }
 
   void check_fixed_points() {
@@ -123,9 +124,10 @@ private:
       if (mesh_.fixed[i] == 1 && mesh_.boundary[i] == 0 && !given.has(mesh_.points[i]))
         foreign.note([&] { return fmt::format("point {} at {}", i, place_of(mesh_.points[i])); });
     report_.none("fixed_points", missing,
-                 fmt::format("fixed points (of {} in the config) that are not vertices", shape_.fixed_points.size()));
+                 fmt::format("fixed points (among {} in the config) that are not vertices of the mesh",
+                             shape_.fixed_points.size()));
     report_.none("fixed_inside", foreign,
-                 "points inside that are marked as fixed, but are not fixed points of the config");
+                 "inner points that are marked as fixed, but are not fixed points of the config");
   }
 
   /// Why corners or curves cannot be judged; empty: they can.
@@ -232,13 +234,13 @@ private:
           mesh_.facets[k], [&](std::int64_t id) { return distance_of(*part, mesh_.at(id)) > limit; });
       check_ends(k, *part, limit, !strict || (strays && across-- > 0), off);
     }
-    report_.none("facet_parts", foreign, "facets of parts that the region of the config does not have");
+    report_.none("facet_parts", foreign, "facets of parts that the region of the config does not use");
     if (judged == 0 && !mesh_.facets.empty())
-      report_.skip("on_curve", reason.empty() ? "no facet follows a part that is known" : reason);
+      report_.skip("on_curve", reason.empty() ? "no facet follows a curve that trime_check can compute" : reason);
     else
       report_.none("on_curve", off,
-                   fmt::format("ends of {} facets ({} in all) that do not lie on the curve of their part", judged,
-                               mesh_.facets.size()));
+                   fmt::format("ends of facets that do not lie on the curve of their part; {} of {} facets were tested",
+                               judged, mesh_.facets.size()));
   }
 
   /// Distance from the curve of a part; 0 if the part has none.
@@ -273,7 +275,7 @@ private:
 
   void check_region() {
     if (const std::string reason = unknown_part(); !reason.empty())
-      report_.skip("region_cover", "that the mesh is all of the shape and nothing else: " + reason);
+      report_.skip("region_cover", "whether the mesh covers the shape and nothing else: " + reason);
     else
       check_cover(shape_, mesh_, changes(), report_);
   }
@@ -297,7 +299,7 @@ void check_shape(const StoredFile& file, const Mesh& mesh, const std::string& co
     text = *given;
     folder = std::filesystem::absolute(config).parent_path().string();
   } else if (text.empty()) {
-    report.skip("shape", "the file holds no config; give one as the second argument");
+    report.skip("shape", "the file contains no config; name a config file as the second argument");
     return;
   }
   ShapeChecks(file, mesh, ConfigText(text, folder), report).run();

@@ -42,7 +42,8 @@ void judge(const std::string& name, const Tally& wrong, std::size_t all, const S
            const std::string& meaning, Report& report) {
   if (sizing.is_expression && wrong.count > 0 &&
       static_cast<double>(wrong.count) < local_share * static_cast<double>(all))
-    report.skip(name, fmt::format("{} {}; the size is an expression, which may jump between points; first: {}",
+    report.skip(name, fmt::format("{} {}; this may be right, because the size is an expression, whose value may jump "
+                                  "between points; first: {}",
                                   wrong.count, meaning, wrong.place));
   else
     report.none(name, wrong, meaning);
@@ -123,17 +124,17 @@ void check_points(const Mesh& mesh, const Sizing& sizing, Report& report) {
   }
   std::string left_out;
   if (beside_fixed > 0)
-    left_out +=
-        fmt::format("; {} next to fixed points that lie closer to each other or to the boundary than the size are "
-                    "left out",
-                    beside_fixed);
+    left_out += fmt::format("; {} more are not counted, because they lie next to fixed points that are closer to each "
+                            "other or to the boundary than the size",
+                            beside_fixed);
   if (at_floor > 0)
-    left_out += fmt::format("; {} on the boundary where the size is lowered to {} of what was asked are left out",
+    left_out += fmt::format("; {} more are not counted, because they lie on the boundary where the size is lowered to "
+                            "{} of the size asked for",
                             at_floor, least_share);
   report.none("positive_size", not_positive, "points whose `size` is not a positive number");
   judge("size", wrong, mesh.size.size(), sizing,
-        fmt::format("points whose `size` is not the length of their edges within a factor of {}{}", size_factor,
-                    left_out),
+        fmt::format("points whose `size` differs from the mean length of their edges by more than a factor of {}{}",
+                    size_factor, left_out),
         report);
 }
 
@@ -157,7 +158,7 @@ Range mean_ratios(const Mesh& mesh, const Sizing& sizing) {
 
 void check_mean(const StoredFile& file, const Mesh& mesh, const Sizing& sizing, Report& report) {
   if (sizing.is_expression) {
-    report.skip("size_mean", "the size is an expression, which may jump between points");
+    report.skip("size_mean", "the size is an expression, whose value may jump between points");
     return;
   }
   const double stored = file.number("/trime_mpi/quality", "size_mean").value_or(0);
@@ -165,8 +166,9 @@ void check_mean(const StoredFile& file, const Mesh& mesh, const Sizing& sizing, 
   report.add(
       "size_mean", stored * mean_factor >= found.low && stored <= found.high * mean_factor,
       fmt::format("{:.6g}", stored), fmt::format("{:.6g} to {:.6g}", found.low, found.high),
-      fmt::format("mean of edges over `size`; expected is `size_mean` of /trime_mpi/quality, within a factor of {}",
-                  mean_factor));
+      fmt::format(
+          "mean of edge length divided by `size`; expected is `size_mean` of /trime_mpi/quality, within a factor of {}",
+          mean_factor));
 }
 
 /// Positive, and related to the sizes of the points; where the size is uniform all are the same.
@@ -185,12 +187,12 @@ void check_facets(const StoredFile& file, const Mesh& mesh, const Sizing& sizing
     else if (size * size_factor <= std::min(a, b) || size * lowest >= size_factor * std::max(a, b))
       unrelated.note(place);
   }
-  report.none("asked_size", asked, "facets whose `asked_size` is not positive, or not that of a uniform size");
+  report.none("asked_size", asked,
+              "facets whose `asked_size` is not positive, or differs from edge_length although the size is uniform");
   judge("asked_to_size", unrelated, mesh.facets.size(), sizing,
-        fmt::format(
-            "facets whose `asked_size` is not the `size` of their points within a factor of {}, lowered to {:.3g} "
-            "at narrow places",
-            size_factor, lowest),
+        fmt::format("facets whose `asked_size` differs by more than a factor of {} from the `size` of their points, "
+                    "which may be lowered to {:.3g} of it",
+                    size_factor, lowest),
         report);
 }
 

@@ -12,19 +12,20 @@
 
 namespace trime_check {
 
-/// @brief An open mesh file. Names are paths from its root.
+/// @brief An open mesh file. All names are paths from the root group of the file.
 class StoredFile {
 public:
-  /// @throws Failure (exit 4) if the file does not exist, is not an HDF5 file, is cut off, or is not a mesh of
+  /// @throws Failure (exit 4) if the file does not exist, is not an HDF5 file, is truncated, or is not a mesh of
   /// trime_mpi
   explicit StoredFile(const std::string& path);
   ~StoredFile();
   StoredFile(const StoredFile&) = delete;
   StoredFile& operator=(const StoredFile&) = delete;
 
-  /// @brief Returns the values of an array if it has this type and shape. Otherwise adds to `wrong` and returns
-  /// nothing.
-  /// @param type "float64", "int64" and the like  @param shape -1 allows any extent
+  /// @brief Returns the values of an array if it has this type and shape. Otherwise adds the fault to `wrong` and
+  /// returns an empty array.
+  /// @param type "float64", "int64" or another name of a type
+  /// @param shape extents; -1 allows any extent
   template <class T>
   std::vector<T> array(const std::string& name, const std::string& type, std::vector<std::int64_t> shape,
                        Tally& wrong) const;
@@ -37,7 +38,7 @@ public:
   std::optional<std::string> text_attribute(const std::string& object, const std::string& attribute) const;
   /// Returns the text of a dataset; empty if it is missing.
   std::string text(const std::string& name) const;
-  /// Return columns of a table; empty if the column is missing or has another type.
+  /// Return the columns of a table; empty if the column is missing or has another type.
   std::vector<double> column(const std::string& name) const;
   std::vector<std::string> names(const std::string& name) const;
 
@@ -45,8 +46,8 @@ private:
   std::int64_t file_ = -1;
 };
 
-/// Reads all arrays; the check `arrays` reports what is missing or has another type or shape. The mesh can be used only
-/// if the function returns true.
+/// Reads all arrays. The check named `arrays` reports which are missing or have another type or shape. The mesh can be
+/// used only if the function returns true.
 bool read_mesh(const StoredFile& file, Mesh& mesh, Report& report);
 
 } // namespace trime_check

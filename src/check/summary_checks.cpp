@@ -177,7 +177,7 @@ double compare_checks(const StoredFile& file, const std::map<std::string, double
     if (!same || holds(names[k], expected[k], found[k]) != (passed[k] == 1))
       wrong.note([&] {
         return fmt::format("{}: the file says expected {:.12g}, found {:.12g}, passed {}{}", names[k], expected[k],
-                           found[k], passed[k], same ? "" : fmt::format("; it is {:.12g}", own->second));
+                           found[k], passed[k], same ? "" : fmt::format("; trime_check finds {:.12g}", own->second));
       });
     all = std::min(all, passed[k]);
   }
@@ -190,7 +190,7 @@ void check_stored_checks(const StoredFile& file, const Mesh& mesh, const Counted
   const std::string reason = file.text_attribute("/trime_mpi", "stop_reason").value_or("");
   const std::vector<std::string> names = file.names("/trime_mpi/checks/name");
   if (names.empty() && complete == 0 && reason.starts_with("none")) {
-    report.skip("stored_checks", "the mesh is a step of a run, which has no certificate");
+    report.skip("stored_checks", "the mesh is an intermediate step of a run and has no certificate");
     return;
   }
   const std::map<std::string, double> here = numbers_here(mesh, counted);
@@ -209,7 +209,7 @@ void check_stored_checks(const StoredFile& file, const Mesh& mesh, const Counted
   };
   compare_count("points", mesh.points.size());
   compare_count("triangles", mesh.triangles.size());
-  report.none("stored_checks", wrong, "lines of /trime_mpi/checks and counts that are not what is found here");
+  report.none("stored_checks", wrong, "rows of /trime_mpi/checks and counts that differ from what trime_check finds");
 }
 
 } // namespace

@@ -120,11 +120,11 @@ private:
     for (std::size_t k = facets.size(); k < mesh_.facets.size(); ++k)
       without_triangle.note([] { return std::string("a facet that is listed twice"); });
     counted_.not_delaunay = not_delaunay.count;
-    report_.none("manifold", crowded, "edges of more than two triangles, or of two that both lie on the same side");
+    report_.none("manifold", crowded, "edges with more than two triangles, or with two triangles on the same side");
     report_.none("delaunay", not_delaunay, "inner edges that are not locally Delaunay (CGAL, exact)");
-    report_.none("rim", not_facets, "edges of only one triangle that are not facets");
+    report_.none("rim", not_facets, "edges with only one triangle that are not facets");
     report_.none("facets", without_triangle,
-                 "facets that are not an edge of exactly one triangle, with the triangle on their left");
+                 "facets that do not have exactly one triangle, or have it on their right side");
   }
 
   void check_points() {
@@ -172,7 +172,7 @@ private:
     counted_.loops = std::ssize(loops_);
     loops_are_sound_ = branches.count == 0 && open.count == 0;
     report_.none("simple_loops", branches, "points at which two loops of facets meet");
-    report_.none("closed_loops", open, "chains of facets that do not come back to where they start");
+    report_.none("closed_loops", open, "chains of facets that do not return to their start");
   }
 
   /// A surface of the plane or of a strip: 2 for each component, less 1 for each loop. A torus may have a handle.
@@ -182,9 +182,9 @@ private:
     std::int64_t expected = 2 * counted_.components - counted_.loops;
     if (mesh_.periods.x > 0 && mesh_.periods.y > 0 && counted_.euler_characteristic == expected - 2)
       expected -= 2;
-    report_.equal(
-        "euler", expected, counted_.euler_characteristic,
-        fmt::format("points - edges + triangles of {} components with {} loops", counted_.components, counted_.loops));
+    report_.equal("euler", expected, counted_.euler_characteristic,
+                  fmt::format("points - edges + triangles of {} components with {} boundary loops", counted_.components,
+                              counted_.loops));
   }
 
   Point step(std::size_t facet) const {
@@ -211,7 +211,7 @@ private:
 
   void check_area() {
     if (!loops_are_sound_) {
-      report_.skip("area", "the facets are not closed simple loops");
+      report_.skip("area", "the facets do not form closed loops without crossings");
       return;
     }
     Integer polygon = 0, triangles = twice_area_;
@@ -258,7 +258,9 @@ private:
     }
     if (ids.size() != loops_.size())
       wrong.note([&] { return fmt::format("/trime_mpi/tags has {} loops, the mesh {}", ids.size(), loops_.size()); });
-    report_.none("tags", wrong, "facets and loops whose tags are not one to a loop, or not those of the table");
+    report_.none(
+        "tags", wrong,
+        "facets and loops with a tag that another loop has, too, or with a tag that differs from /trime_mpi/tags");
     check_boundary_array();
   }
 
@@ -274,7 +276,8 @@ private:
           return fmt::format("point {} at {}: expected {}, found {}", i, place_of(mesh_.points[i]), expected[i],
                              mesh_.boundary[i]);
         });
-    report_.none("boundary_array", wrong, "points whose value in `boundary` is not the tag of their loop, 0 inside");
+    report_.none("boundary_array", wrong,
+                 "points whose value in `boundary` is not the tag of their loop (for inner points: 0)");
   }
 
   void check_fixed() {

@@ -26,8 +26,10 @@ void check_format(const StoredFile& file, const Mesh& mesh, Report& report) {
   };
   const auto expect_view = [&](const std::string& name, bool is_there, bool wanted) {
     if (is_there != wanted)
-      wrong.note(
-          [&] { return fmt::format("{} is {}, by `formats` of the config", name, wanted ? "missing" : "too much"); });
+      wrong.note([&] {
+        return fmt::format("{} is {}, according to the key `formats` of the config", name,
+                           wanted ? "missing" : "too much");
+      });
   };
   expect("/trime_mpi", "format_version", {format_version});
   if (mesh.has_vtk) {
@@ -48,7 +50,7 @@ void check_format(const StoredFile& file, const Mesh& mesh, Report& report) {
     expect_view("/VTKHDF", mesh.has_vtk, vtk);
     expect_view("/Mesh/mesh", mesh.has_plain, !vtk || formats.find(" xdmf ") != std::string::npos);
   }
-  report.none("format", wrong, "views and attributes that other programs need, and that are missing or wrong");
+  report.none("format", wrong, "arrays and attributes for other programs that are missing or wrong");
 }
 
 /// Labels, markers and regions, by the table of what they mean.
@@ -73,8 +75,8 @@ void check_labels(const StoredFile& file, const Mesh& mesh, Report& report) {
     if (!regions.contains(static_cast<double>(mesh.region[t])))
       foreign.note([&] { return fmt::format("{}: {}", place_of(mesh, t), mesh.region[t]); });
   report.none("labels", labels, "facets whose label is not the number of their part plus 1");
-  report.none("markers", marked, "facets whose marker is not that of their part in /trime_mpi/tags");
-  report.none("region", foreign, "triangles of no region of /trime_mpi/tags");
+  report.none("markers", marked, "facets whose marker differs from that of their part in /trime_mpi/tags");
+  report.none("region", foreign, "triangles whose region is missing in /trime_mpi/tags");
 }
 
 /// Tables of tags have as many rows in all columns, and parts count from 0; points of ranks come one behind the other.
@@ -96,7 +98,7 @@ void check_columns(const StoredFile& file, const Mesh& mesh, Report& report) {
   expect(!first.empty() && first[0] == 0 && std::ranges::is_sorted(first) &&
              first.back() <= static_cast<double>(mesh.points.size()),
          "ranks/first_point");
-  report.none("columns", wrong, "columns of `tags` and `ranks` whose rows are missing or out of order");
+  report.none("columns", wrong, "columns of the tables `tags` and `ranks` with rows that are missing or out of order");
 }
 
 /// Parts of a loop, each once in the order in which they come from a facet on.
@@ -143,7 +145,7 @@ void check_loops(const StoredFile& file, const Mesh& mesh, const Counted& counte
       name.note([&] { return fmt::format("loop {} at {}", tag, place_of(mesh, mesh.facets[loop.facets[0]])); });
   }
   report.none("edge_kind", kind, "loops whose `edge_kind` is not the kind of the loop");
-  report.none("edge_name", name, "loops whose `edge_name` is not their parts in order");
+  report.none("edge_name", name, "loops whose `edge_name` does not list their parts in order");
 }
 
 /// Attributes of a run that follow from its mesh.
@@ -202,17 +204,17 @@ void check_tables(const StoredFile& file, const Mesh& mesh, const Counted& count
   check_labels(file, mesh, report);
   check_columns(file, mesh, report);
   if (counted.boundary.empty() && !mesh.facets.empty())
-    report.skip("edge_kind, edge_name", "the facets are not closed simple loops");
+    report.skip("edge_kind, edge_name", "the facets do not form closed loops without crossings");
   else
     check_loops(file, mesh, counted, report);
   if (is_step(file))
-    report.skip("attributes", "the mesh is a step of a run, which does not count them");
+    report.skip("attributes", "the mesh is an intermediate step of a run, which does not store these counts");
   else
-    report.none("attributes", Attributes(file, mesh, counted).compare(),
-                "attributes of /trime_mpi that are not what is found here: components, holes, corners, sizes, areas");
-  report.skip("provenance", "this program prints, but does not check, who made the mesh and how: texts, versions, "
-                            "`crs`, times, counters, history, "
-                            "`normalization`, `rings`, `sharp_corners`, `worst_triangles`, other attributes");
+    report.none(
+        "attributes", Attributes(file, mesh, counted).compare(),
+        "attributes of /trime_mpi that differ from what trime_check finds: components, holes, corners, sizes, areas");
+  report.skip("provenance", "trime_check cannot check how the mesh was made: texts, versions, `crs`, times, counters, "
+                            "history, `normalization`, `rings`, `sharp_corners`, `worst_triangles`, other attributes");
 }
 
 namespace {
@@ -240,8 +242,8 @@ void check_views(const Mesh& mesh, Report& report) {
                                          std::ssize(mesh.connectivity)};
   if (mesh.has_vtk && (mesh.offsets.back() != counts[2] || mesh.counts != counts))
     cells.note([] { return std::string("/VTKHDF/Offsets at its end, or one of /VTKHDF/NumberOf..."); });
-  report.none("vtk_points", points, "points of the views /VTKHDF and /geometry that differ from /Mesh/mesh/geometry");
-  report.none("vtk_cells", cells, "cells of the view /VTKHDF that differ from /Mesh/mesh/topology");
+  report.none("vtk_points", points, "points in the copies /VTKHDF and /geometry that differ from /Mesh/mesh/geometry");
+  report.none("vtk_cells", cells, "triangles in the copy /VTKHDF that differ from /Mesh/mesh/topology");
 }
 
 /// Canonical: the lowest vertex first, triangles by their first and then second vertex, facets by their lowest vertex.
@@ -257,7 +259,7 @@ void check_order(const Mesh& mesh, Report& report) {
     if (least(k) < least(k - 1))
       wrong.note([&] { return fmt::format("facet {}: {}", k, place_of(mesh, mesh.facets[k])); });
   }
-  report.none("order", wrong, "triangles and facets that do not stand in the order of their vertices, lowest first");
+  report.none("order", wrong, "triangles and facets that are not sorted by the ids of their vertices");
 }
 
 /// The finaliser of splitmix64 (Steele, Lea, Flood 2014).
@@ -289,7 +291,7 @@ void check_hash(const StoredFile& file, const Mesh& mesh, Report& report) {
   const std::optional<std::uint64_t> stored = file.hash("/trime_mpi", "mesh_hash");
   report.add("mesh_hash", stored == hash && file.text_attribute("/trime_mpi", "mesh_hash_hex") == hex,
              stored ? fmt::format("{:016x}", *stored) : std::string("a hash"), hex,
-             "hash of points and triangles; expected is what /trime_mpi says");
+             "hash of points and triangles; expected is the value stored in /trime_mpi");
 }
 
 } // namespace
@@ -306,8 +308,9 @@ bool check_arrays(const StoredFile& file, const Mesh& mesh, Report& report) {
   for (std::size_t i = 0; i < mesh.points.size(); ++i)
     if (!std::isfinite(mesh.points[i].x) || !std::isfinite(mesh.points[i].y))
       infinite.note([&] { return fmt::format("point {} {}", i, place_of(mesh.points[i])); });
-  report.none("id_range", range,
-              fmt::format("triangles and facets with ids that are not those of {} points", mesh.points.size()));
+  report.none(
+      "id_range", range,
+      fmt::format("triangles and facets with vertex ids outside the range of the {} points", mesh.points.size()));
   report.none("finite", infinite, "points whose coordinates are not finite numbers");
   if (range.count > 0)
     return false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The boundary during the clean-up. Each rank knows the places of the sites that it owns, and all ranks receive the
-// edits at the end.
+// The boundary during the clean-up. Each rank knows the places of the boundary sites that it owns; all ranks receive
+// the edits at the end.
 #pragma once
 
 #include "cleanup/patch_data.hpp"
@@ -16,35 +16,36 @@
 namespace trime::cleanup {
 
 /// @brief The sites on the boundary at the beginning, which are the same on all ranks, and the present places of those
-/// that this rank owns. For sites of other ranks it may have older places.
+/// that this rank owns. For sites of other ranks the places may be outdated.
 class CleanupBoundary {
 public:
   /// @brief Collective. Throws on all ranks together if the size field throws. The arguments must outlive the object.
-  /// @param tolerance [size] largest distance of a chord from corners that it leaves out; 0: it may leave out none
+  /// @param tolerance [size] largest distance of a boundary edge from corners between its ends; 0: no boundary edge may
+  /// leave out a corner
   CleanupBoundary(const comm::Communicator& comm, const geometry::Boundary& curves, const polygon::BoundarySites& sites,
                   const sizing::SizeField& size, double tolerance);
 
   const polygon::BoundaryCurve& curve() const { return curve_; }
 
-  /// Returns the name of an owned site.
+  /// Returns the place on the boundary of a site that this rank owns.
   BoundaryPlace place(BoundaryName site) const;
-  /// Returns BoundaryPlace::tolerance at a place. Throws if the size field throws.
+  /// Returns BoundaryPlace::tolerance at the point p. Throws if the size field throws.
   double tolerance(geometry::Vec2 p) const { return tolerance_ > 0 ? tolerance_ * size_.size(p) : 0; }
 
-  /// Notes a new place of an owned site on its loop. @pre a link of the site follows
+  /// Stores the new place of a site of this rank on its loop. @pre set_next() follows for this site
   void set_place(BoundaryName site, const SiteEdit& edit);
   void set_next(BoundaryName site, BoundaryName next);
-  /// Forgets a site that is removed or that another rank owns now.
+  /// Removes the data of a site that is deleted or that another rank now owns.
   void forget(BoundaryName site) { known_.erase(site); }
 
-  /// Notes edits of this rank's patches of a round (0, 1, ...), for `finish`.
+  /// Stores edits of this rank's patches in a round (0, 1, ...), which finish() sends.
   void note(std::span<const SiteEdit> edits, int round);
   /// @brief Sends all edits to all ranks. Collective. O(edits on the boundary of all ranks); if there are any, also
   /// O(sites on the boundary). @return the sites on the boundary after the edits; nothing if there were no edits
   std::optional<polygon::BoundarySites> finish();
-  /// Returns whether `finish` has found edits that may have changed the indices.
+  /// Returns whether finish() has found edits that may have changed the indices of sites.
   bool has_new_indices() const { return !new_index_.empty(); }
-  /// Returns the index of a site after `finish`. @pre the site still exists
+  /// Returns the index of a site after finish(). @pre the site still exists
   LocalIndex index(BoundaryName site) const;
 
 private:

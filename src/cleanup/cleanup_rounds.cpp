@@ -58,7 +58,7 @@ void CleanupRounds::run_stage(int stage) {
     if (outcome == Outcome::nothing_left)
       return;
     if (outcome == Outcome::neighbours_missing)
-      throw InternalError("a patch of the clean-up reaches to a rank that should be a neighbour, but is not");
+      throw InternalError("a patch of the clean-up overlaps tiles of a rank that is not a neighbour");
   }
 }
 

@@ -22,12 +22,12 @@
 namespace trime::cleanup {
 
 /// @brief Chooses patches, tries them on all ranks, and sends the results to the owners of the sites. Does not change
-/// the stage before `finish`. All calls are collective.
+/// the stage before finish() is called. All methods are collective.
 ///
-/// In a round ranks exchange messages with their neighbours, and more if they have patches near each other's tiles. One
-/// reduction counts the patches; if some ranks have more than their share, these are distributed. Another reduction
-/// counts new sites and finds out whether any rank has an error. A rank with an error takes part in all messages until
-/// that reduction.
+/// In a round, ranks exchange messages with their neighbours, and further messages with ranks whose patches lie near
+/// their tiles. One reduction counts the patches; if some ranks have more than their share, patches are sent to other
+/// ranks. Another reduction counts new sites and finds out whether any rank has an error. A rank with an error takes
+/// part in all messages before that reduction.
 class CleanupRounds {
 public:
   /// @brief The arguments must outlive the object.
@@ -35,15 +35,16 @@ public:
   CleanupRounds(const sites::Stage& stage, const geometry::Boundary& meshed, const geometry::Lattice& lattice,
                 const CleanupOptions& options, std::span<const Candidate> candidates);
 
-  /// Runs rounds until no candidate is left for this stage (1, 2, ...), at most CleanupRules::most_rounds.
+  /// Runs rounds until no candidate is left for this stage (1, 2, ...), at most CleanupRules::most_rounds rounds.
   void run_stage(int stage);
   /// Returns the counts of all rounds so far.
   CleanupCounts counts() const;
-  /// Applies all edits to the state, the polygon and the guard of the stage. @param builder the builder of its stars
+  /// Applies all edits to the state, the polygon and the guard of the stage. @param builder the object that has built
+  /// the Delaunay stars of the stage
   void finish(sites::Stage& stage, const delaunay::StarBuilder& builder);
 
 private:
-  /// The patches of this rank in a round.
+  /// The patches that this rank tries in a round.
   struct Attempt {
     Choice choice;
     std::vector<PatchResult> results; // results of the chosen patches
@@ -83,10 +84,10 @@ private:
   CleanupCandidates candidates_; // candidates among the owned sites
   comm::Neighbours neighbours_;
   PerThread<std::unique_ptr<PatchOptimizer>> optimizers_;
-  CleanupCounts counts_; // counts of the patches of this rank
+  CleanupCounts counts_; // sums over the patches of this rank
   int round_ = 0;
-  int stage_ = 1;          // in stages above the first, the worst places of this mesh are tried once more
-  double again_alpha_ = 0; // alpha above which they are tried once more
+  int stage_ = 1;          // stages after the first try the worst places of this mesh once more
+  double again_alpha_ = 0; // places with a larger alpha are tried once more
 };
 
 } // namespace trime::cleanup

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The triangulation around a bad triangle: its sites, which of them may take part, data of its vertices, and the
-// quality of its triangles.
+// The triangulation around a bad triangle: its sites, which of them may move, data of its vertices, and the quality of
+// its triangles.
 #pragma once
 
 #include "cleanup/patch_data.hpp"
@@ -23,21 +23,22 @@ namespace trime::cleanup {
 /// The vertices of a triangle, counter-clockwise.
 using Corners = std::array<LocalIndex, 3>;
 
-/// The role of a vertex. A scored vertex is held, but its triangles count.
+/// The role of a vertex: it was removed; it is fixed; it is fixed, but its triangles count in the sum; or it may move,
+/// and its triangles count.
 enum class VertexRole : std::uint8_t { gone, held, scored, free };
 
 /// A vertex on the boundary, with its place and its neighbours along the loop.
 struct BoundaryVertex {
-  BoundaryName site =
-      mesh::free_site; ///< its name; for a new site, the name of the last old site before it; -1 if it lies inside
-  LocalIndex previous = -1, next = -1; ///< vertices; -1 if they lie beyond the patch
+  BoundaryName site = mesh::free_site; ///< its name; a new site has the name of the last old site before it; -1 if the
+                                       ///< vertex lies inside
+  LocalIndex previous = -1, next = -1; ///< neighbours along the loop; -1 if they lie outside the patch
   LocalIndex loop = -1;
   double arc = 0;
   double tolerance = 0; ///< see BoundaryPlace
   bool changed = false; ///< the chord to the next vertex has changed
 };
 
-/// A measure of triangles: the sum of (alpha - 1)^2, in which bad triangles have more weight, and the largest alpha.
+/// A measure of triangles: the sum of (alpha - 1)^2, with an additional term for bad triangles, and the largest alpha.
 struct AlphaScore {
   double sum = 0, max = 1;
   double obtuse = 0; ///< the part of the sum that obtuse triangles add, if they count
@@ -57,7 +58,7 @@ struct AlphaScore {
   }
 };
 
-/// A bad triangle for which operations are tried.
+/// A bad triangle at which operations are tried.
 struct BadPlace {
   Corners corners;
   geometry::Vec2 middle;
@@ -65,45 +66,45 @@ struct BadPlace {
   double size; ///< h in the middle of the triangle
 };
 
-/// @brief A triangulation with data of its vertices. A trial works on a copy of the patch, which is dropped if it does
-/// not help.
+/// @brief A triangulation with data of its vertices. A trial works on a copy of the patch. The copy is discarded if the
+/// trial does not improve the triangles.
 struct Patch {
   Patch(const geometry::Lattice& lattice, const geometry::Periods& periods) : mesh(lattice, periods) {}
 
   /// Removes everything except the frame. @param size h at the vertices of the frame
   void start(geometry::Vec2 center, double half_width, double size);
-  /// @brief Adds a vertex to the triangulation. @return its index, or -1 if one lies there already
+  /// @brief Adds a vertex to the triangulation. @return its index, or -1 if a vertex lies at p already
   LocalIndex add(geometry::Vec2 p, double h, const BoundaryVertex& on_boundary, VertexRole its_role);
-  /// Sets the data of vertex v, the last one of the triangulation.
+  /// Sets the data of vertex v, which must be the last vertex of the triangulation.
   void append(LocalIndex v, double h, const BoundaryVertex& on_boundary, VertexRole its_role);
 
   bool is_gone(LocalIndex v) const { return role[at(v)] == VertexRole::gone; }
   bool on_boundary(LocalIndex v) const { return boundary[at(v)].site >= 0; }
   bool is_chord(LocalIndex from, LocalIndex to) const { return boundary[at(from)].next == to; }
   geometry::Segment chord(LocalIndex v) const { return {mesh.position(v), mesh.position(boundary[at(v)].next)}; }
-  /// Returns the number of chords of the boundary that are not edges.
+  /// Returns the number of boundary edges of the loops that are not edges of the triangulation.
   LocalIndex missing_chords() const;
-  /// Returns a chord in whose closed diametral disc p lies, if there is one.
+  /// Returns a boundary edge whose closed diametral disc contains p, if there is one.
   std::optional<geometry::Segment> entered_disc(geometry::Vec2 p) const;
 
   /// Returns whether a triangle lies inside the shape and has a vertex whose triangles count.
   bool counts(const PatchMesh::Triangle& triangle) const {
     return may_count(triangle) && (has_inner_vertex(triangle) || lies_inside(triangle));
   }
-  /// Returns whether all vertices of a triangle are sites, one of them with triangles that count.
+  /// Returns whether all vertices of a triangle are sites, and triangles of at least one of them count.
   bool may_count(const PatchMesh::Triangle& triangle) const {
     const auto& [a, b, c] = triangle.vertex;
     return std::min(a, std::min(b, c)) >= PatchMesh::frame &&
            std::max(role[at(a)], std::max(role[at(b)], role[at(c)])) >= VertexRole::scored;
   }
-  /// Returns whether a triangle counts and is worse than `bad_alpha`. For most triangles no root is needed.
+  /// Returns whether a triangle counts and its alpha exceeds `bad_alpha`. For most triangles this needs no square root.
   bool is_bad(const PatchMesh::Triangle& triangle, double bad_alpha) const {
     return may_count(triangle) && !is_surely_below(bad_alpha, triangle.vertex) && counts(triangle) &&
            alpha(triangle.vertex) > bad_alpha;
   }
   /// See mesh::is_surely_below.
   bool is_surely_below(double limit, const Corners& corners) const;
-  /// Returns mesh::aspect_ratio; infinite if the triangle has no area.
+  /// Returns mesh::aspect_ratio, or infinity if the triangle has no area.
   double alpha(const Corners& corners) const {
     const geometry::Vec2 p = mesh.position(corners[0]), u = mesh.position(corners[1]) - p,
                          v = mesh.position(corners[2]) - p;
@@ -127,8 +128,8 @@ struct Patch {
   PatchMesh mesh;
   std::vector<VertexRole> role;         ///< role by vertex
   std::vector<double> size;             ///< h by vertex
-  std::vector<BoundaryVertex> boundary; ///< place on the boundary by vertex
-  std::vector<LocalIndex> rim;          ///< vertices on the boundary, including removed ones
+  std::vector<BoundaryVertex> boundary; ///< by vertex: place on the boundary
+  std::vector<LocalIndex> rim;          ///< vertices on the boundary, including vertices that were removed
   GlobalId gain = 0;                    ///< number of sites added since the start
   bool broken = false;                  ///< an operation of the triangulation failed: the patch can no longer be used
 
@@ -140,17 +141,18 @@ private:
   bool lies_inside(const PatchMesh::Triangle& triangle) const;
 };
 
-/// @brief The place of a patch and the sites around it before any change. Trials are compared with it. One object is
-/// used for one patch after the other.
+/// @brief The place of a patch and the sites around it before any change. Trials are compared with this state. One
+/// object serves one patch after the other.
 class PatchStart {
 public:
-  /// The arguments must outlive the object. @param boundary sites at the beginning; only loops and periods are used
+  /// The arguments must outlive the object. @param boundary sites before the clean-up; only their loops and periods are
+  /// used
   PatchStart(const polygon::BoundarySites& boundary, const polygon::BoundaryCurve& curve,
              const geometry::Lattice& lattice)
       : boundary_(boundary), curve_(curve), lattice_(lattice), patch_(lattice, boundary.periods) {}
 
   /// @brief Triangulates the sites. @return false if nothing can be changed, because there are too many sites or all
-  /// are near the rim
+  /// lie near the rim of the patch
   /// @param sites see PatchOptimizer::improve
   bool build(geometry::Vec2 center, double size, std::span<const PatchSite> sites);
 
@@ -171,7 +173,7 @@ public:
   bool has_changed(const Patch& now, LocalIndex v) const {
     return v >= vertices() || now.mesh.position(v) != patch_.mesh.position(v);
   }
-  /// Returns whether a place is far enough from the sites that are held.
+  /// Returns whether a place is far enough from the sites that must not move.
   bool is_in_core(geometry::Vec2 p) const {
     return distance(p) < (CleanupRules::reach - CleanupRules::free_depth - CleanupRules::core_depth) * size_;
   }
@@ -195,14 +197,14 @@ private:
   const polygon::BoundaryCurve& curve_;
   geometry::Lattice lattice_;
   Patch patch_;
-  std::vector<BoundaryName> next_; // next site of each vertex on the boundary
+  std::vector<BoundaryName> next_; // by vertex on the boundary: the next site of its loop
   geometry::Vec2 center_;
   double size_ = 1;
   LocalIndex missing_chords_ = 0;
 };
 
-/// @brief The sites that rest. A triangle whose three sites rest is not tried. A site that moves or is new does not
-/// rest.
+/// @brief The sites that rest. A triangle is not tried if its three sites rest. A site that has moved or is new does
+/// not rest.
 class PatchRests {
 public:
   /// @param sites sites of the patch, in the order of its vertices
@@ -214,7 +216,7 @@ public:
   }
   bool rests(LocalIndex v) const { return rests_[at(v)] != 0; }
   bool all_rest(const Corners& corners) const { return rests(corners[0]) && rests(corners[1]) && rests(corners[2]); }
-  /// @pre the site was there at the start
+  /// @pre the site was in the patch at the start
   bool has_changed(LocalIndex v) const { return rests_[at(v)] != at_start_[at(v)]; }
 
   void let_rest(const Corners& corners) {
@@ -225,7 +227,7 @@ public:
     for (const LocalIndex v : vertices)
       rests_[at(v)] = 0;
   }
-  /// Ends the rest of sites that have moved far, and of new sites.
+  /// Ends the rest of sites that have moved far. New sites do not rest.
   void wake_moved(const Patch& before, const Patch& now) {
     rests_.resize(at(now.mesh.vertices()), 0);
     for (LocalIndex v = PatchMesh::frame; v < before.mesh.vertices(); ++v) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The contest of the operations at a bad triangle: it decides how far each operation is tried, and which one is kept.
+// Compares operations at a bad triangle: it decides how far each operation is tried, and which one is kept.
 #pragma once
 
 #include "cleanup/patch.hpp"
@@ -11,8 +11,8 @@
 
 namespace trime::cleanup {
 
-/// @brief The AlphaScore over the triangles near a place. Most of the sum of a trial is already known, because it
-/// shares most of its triangles with the patch from which it was copied.
+/// @brief The AlphaScore over the triangles near a place. Most of the sum of a trial is already known, because a trial
+/// is a copy of the patch and most of its triangles are unchanged.
 class PatchScore {
 public:
   explicit PatchScore(double bad_alpha) : bad_alpha_(bad_alpha) {}
@@ -22,17 +22,18 @@ public:
   /// @return the score of the patch, whose list of changed triangles is emptied
   AlphaScore begin(Patch& now, const BadPlace& place, double obtuse_weight);
 
-  /// Vertices that may move in the last sweeps of a trial, and vertices that may move in the first.
+  /// Return the vertices that may move in the last sweeps of a trial, and those that may move in the first sweeps.
   std::span<const LocalIndex> near() const { return near_; }
   std::span<const LocalIndex> nearest() const { return nearest_; }
 
-  /// @brief Returns the sum of a trial, quickly. It does not notice that a new or removed chord moves a triangle with
-  /// three vertices on the boundary to the other side of the boundary; score() does.
+  /// @brief Returns the sum of a trial quickly. If a boundary edge was added or removed, a triangle with three vertices
+  /// on the boundary may change from inside to outside the shape; this function ignores such a change, score() does
+  /// not.
   double sum(const Patch& now, const Patch& trial);
   AlphaScore score(const Patch& trial) const;
 
 private:
-  struct Term { // the term of a triangle of the patch in the sum
+  struct Term { // the term of one triangle of the patch in the sum
     Corners vertex;
     LocalIndex triangle;
     double value;
@@ -49,41 +50,42 @@ private:
 
   double bad_alpha_, obtuse_weight_ = 0;
   std::vector<LocalIndex> near_, nearest_;
-  std::vector<std::uint8_t> in_score_; // whether its triangles count, by vertex of the patch
+  std::vector<std::uint8_t> in_score_; // by vertex of the patch: whether its triangles count
   std::vector<Term> terms_;
-  std::vector<std::uint8_t> has_term_;  // whether it has a term, by triangle of the patch
-  std::vector<std::uint8_t> has_moved_; // whether it has moved, by vertex of a trial
-  std::vector<LocalIndex> changed_;     // triangles of a trial that the patch does not have
+  std::vector<std::uint8_t> has_term_;  // by triangle of the patch: whether it has a term
+  std::vector<std::uint8_t> has_moved_; // by vertex of a trial: whether the vertex has moved
+  std::vector<LocalIndex> changed_;     // triangles of a trial that are not triangles of the patch
 };
 
-/// @brief Tries operations, each on a copy of the patch and followed by sweeps of moves. Few trials get a second sweep,
-/// and fewer get the last ones. An operation is better if the sum of the AlphaScore near it falls by
-/// CleanupRules::least_gain and the largest alpha does not rise. At a very bad triangle, smaller triangles are tried,
-/// too. There are more of them, so only the largest alpha decides: its excess must fall by CleanupRules::refine_gain.
+/// @brief Tries operations, each on a copy of the patch, followed by sweeps that move sites. Few trials get a second
+/// sweep, and fewer get the last sweeps. An operation is better than no operation if the sum of the AlphaScore near it
+/// falls by CleanupRules::least_gain and the largest alpha does not rise. At a very bad triangle, division into smaller
+/// triangles is tried, too. It gives more triangles, so there only the largest alpha is compared: its excess over 1
+/// must fall by CleanupRules::refine_gain.
 class PatchContest {
 public:
   /// The arguments must outlive the object.
   PatchContest(const PatchStart& start, PatchChords& chords, PatchMover& mover, const PatchOptions& options);
 
-  /// Says whether a contest is held before all moves or after them.
+  /// Says whether the operations are compared before all moves or after them.
   enum class Turn { before_moves, after_moves };
-  /// @brief Holds the contest at a triangle of the patch. @return true if an operation was better; then `now` is its
-  /// result
+  /// @brief Compares operations at a triangle of the patch. @return true if one was better than no operation; then
+  /// `now` is its result
   bool hold(Patch& now, const Corners& worst, const PatchBudget& budget, Turn turn);
 
-  /// After a contest with a winner: the patch before it, and the sites that took part.
+  /// After hold() has returned true: the patch before the operation, and the sites that took part.
   const Patch& before() const { return best_; }
   std::span<const LocalIndex> near() const { return score_.near(); }
 
 private:
-  struct Runner { // a trial that is still in the contest
+  struct Runner { // a trial that is still compared
     Patch patch;
-    double sum = 0, handicap = 1; // the sum is infinite if there is no trial here
+    double sum = 0, handicap = 1; // the sum is infinite if this entry holds no trial
   };
-  /// The requirements for a trial.
+  /// The values that a trial must reach.
   struct Bar {
-    double first;   // the sum must be below this at first
-    double least;   // the sum must be below this since the best trial
+    double first;   // the sum must be below this at the beginning
+    double least;   // the sum must be below this after the best trial so far
     double before;  // largest alpha at the beginning
     double largest; // largest alpha since the best trial
     double obtuse;  // what obtuse triangles add to the sum at the beginning

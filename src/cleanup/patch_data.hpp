@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Input and output of a patch. Plain data; ranks send some of it to each other.
+// Input and output of a patch. Plain data, because ranks send some of them to each other.
 #pragma once
 
 #include "cleanup/rules.hpp"
@@ -12,8 +12,9 @@
 
 namespace trime::cleanup {
 
-/// @brief The name of a site on the boundary during the clean-up, the same on every rank: the index for sites that
-/// existed at the beginning, a hash for new ones. A negative number means that the site is inside, see mesh::Site.
+/// @brief The name of a site on the boundary during the clean-up, which is the same on every rank: for sites that
+/// existed at the beginning, their index; for new sites, a hash. A negative number means that the site lies inside, see
+/// mesh::Site.
 using BoundaryName = std::int64_t;
 
 /// The place of a site on the boundary.
@@ -21,40 +22,41 @@ struct BoundaryPlace {
   LocalIndex loop = -1;
   bool corner = false;
   double arc = 0;         ///< arc length from the start of the loop
-  double tolerance = 0;   ///< largest distance of a new chord from a curve with corners in between
+  double tolerance = 0;   ///< largest distance of a new boundary edge from a curve with corners between its ends
   BoundaryName next = -1; ///< the next site along the loop
 };
 
-/// A site near a bad triangle, at the image that lies there.
+/// A site near a bad triangle, at the periodic image near that triangle.
 struct PatchSite {
   geometry::Vec2 position;
-  double size;                             ///< h there
-  BoundaryName boundary = mesh::free_site; ///< its name
-  std::int32_t rests = 0;                  ///< 1 if nothing helped here the last time
-  BoundaryPlace on_boundary{};             ///< its place, if it is on the boundary
+  double size;                             ///< target edge length h at the site
+  BoundaryName boundary = mesh::free_site; ///< name on the boundary
+  std::int32_t rests = 0;                  ///< 1 if no change improved its triangles the last time
+  BoundaryPlace on_boundary{};             ///< place on the boundary, if the site lies there
 };
 
-/// A change of one site: it moves, is removed, or is new (then `from` is unused).
+/// A change of one site: a move, a removal, or an addition (then `from` is not used).
 struct SiteEdit {
   geometry::Vec2 from, to;
   polygon::EditKind kind = polygon::EditKind::move;
-  LocalIndex loop = -1;                    ///< loop of a site on the boundary
-  BoundaryName boundary = mesh::free_site; ///< name of the site; for a new one on the boundary, of the site before it
-  BoundaryName made = mesh::free_site;     ///< name of a new site
-  double arc = 0;                          ///< arc length of the new place on the boundary
-  std::uint64_t patch = 0;                 ///< number of the patch that makes the change
-  double size = 0, tolerance = 0; ///< h, and BoundaryPlace::tolerance, at the new place; CleanupRounds sets them
+  LocalIndex loop = -1; ///< loop of a site on the boundary
+  BoundaryName boundary =
+      mesh::free_site; ///< name of the site; for a new site on the boundary, the name of the site before it
+  BoundaryName made = mesh::free_site; ///< name of a new site
+  double arc = 0;                      ///< arc length of the new place on the boundary
+  std::uint64_t patch = 0;             ///< number of the patch that makes the change
+  double size = 0, tolerance = 0;      ///< h, and BoundaryPlace::tolerance, at the new place; CleanupRounds sets them
 };
 
-/// A site on the boundary with a new next site.
+/// A site on the boundary whose next site has changed.
 struct BoundaryLink {
-  geometry::Vec2 position; ///< after the patch
+  geometry::Vec2 position; ///< position after the changes of the patch
   BoundaryName site, next;
 };
 
-/// A site after a patch has been tried.
+/// The state of a site after its patch has been tried.
 struct SiteVerdict {
-  geometry::Vec2 position; ///< after the patch
+  geometry::Vec2 position; ///< position after the changes of the patch
   double size;             ///< h
   double alpha;            ///< alpha of its worst triangle if that is bad, otherwise 0
   std::int64_t rests;      ///< nothing helped for its bad triangles, and it has not moved much since
@@ -63,13 +65,13 @@ struct SiteVerdict {
 
 /// The result of trying a patch.
 struct PatchResult {
-  std::vector<SiteEdit> edits;       ///< changes that improve the patch; empty if none does
-  std::vector<BoundaryLink> links;   ///< one for each site on the boundary that moves, is new, or has a new next site
-  std::vector<SiteVerdict> verdicts; ///< one for each site that has or had bad triangles, where something has changed
-  bool put_off = false;              ///< CleanupLimits has dropped the edits because of the number of sites
+  std::vector<SiteEdit> edits;     ///< changes that improve the patch; empty if no change does
+  std::vector<BoundaryLink> links; ///< one for each site on the boundary that has moved, is new, or has a new next site
+  std::vector<SiteVerdict> verdicts; ///< one for each site that has or had bad triangles, if anything changed around it
+  bool put_off = false;              ///< true if CleanupLimits has dropped the edits because of the number of sites
 };
 
-/// From which alpha on changes are tried. Tests lower these limits to see how nearly good triangles are treated.
+/// The values of alpha above which changes are tried. Tests lower them to see how almost good triangles are treated.
 struct PatchOptions {
   double bad_alpha = CleanupRules::bad_alpha;
   double operate_alpha = CleanupRules::operate_alpha;
@@ -79,9 +81,10 @@ struct PatchOptions {
 /// Limits on how a patch may change the number of sites.
 struct PatchBudget {
   GlobalId may_insert = 100; ///< largest number of sites that the patch may gain
-  GlobalId may_refine = 100; ///< largest number of sites that it may gain where only smaller triangles help
-  GlobalId may_delete = 2;   ///< largest number of sites that the patch may lose
-  bool is_again = false;     ///< whether the patch has been tried before
+  GlobalId may_refine =
+      100; ///< largest number of sites that the patch may gain at places where only smaller triangles improve the mesh
+  GlobalId may_delete = 2; ///< largest number of sites that the patch may lose
+  bool is_again = false;   ///< whether this is a later stage, which tries the worst places of the mesh again
   double again_alpha =
       CleanupRules::again_alpha; ///< in that case, operations are tried for triangles with a larger alpha
   double obtuse_weight = 0; ///< above 0: only obtuse triangles are tried, and this is what each of them costs in a sum

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Moves the sites of a patch: inner sites freely, those on the boundary along their curve, where only some chords are
-// allowed.
+// Moves the sites of a patch: inner sites freely, sites on the boundary along their curve, as far as the boundary edges
+// stay near the curve.
 #pragma once
 
 #include "cleanup/patch.hpp"
@@ -12,17 +12,19 @@
 
 namespace trime::cleanup {
 
-/// @brief The rule for chords: the closed diametral disc of each is empty, the curve that it replaces does not leave
-/// this disc, and a curve that turns by more than 60 degrees deviates by at most the tolerance.
+/// @brief Checks the rule for boundary edges: the closed diametral disc of each edge is empty, and the curve that the
+/// edge replaces does not leave this disc. A curve that turns by more than 60 degrees deviates from its edge by at most
+/// the tolerance.
 class PatchChords {
 public:
   /// @pre `start` outlives the object
   explicit PatchChords(const PatchStart& start) : start_(start) {}
 
-  /// @param longest_bent [h] largest length of chords of curves, see CleanupRules::bent_at_first
+  /// @param longest_bent [h] largest length of edges that replace bent curves, see CleanupRules::bent_at_first
   void allow(double longest_bent) { longest_bent_ = longest_bent; }
 
-  /// Returns whether a chord between two vertices on the boundary may replace the curve. @param size h there
+  /// Returns whether an edge between two vertices on the boundary may replace the curve between them. @param size h at
+  /// the edge
   bool stands_for_curve(const BoundaryVertex& from, const BoundaryVertex& to, const geometry::Segment& chord,
                         double size) const {
     double arc = to.arc - from.arc;
@@ -32,14 +34,15 @@ public:
     return arc <= CleanupRules::straight_share * length || // the curve is a straight side
            stands_for_bent_curve(from, to, chord, size, arc, length);
   }
-  /// Returns the same for the chord from vertex v to the next.
+  /// Returns whether the boundary edge from vertex v to the next vertex may replace its curve.
   bool stands_for_curve(const Patch& patch, LocalIndex v) const {
     const BoundaryVertex& own = patch.boundary[at(v)];
     return stands_for_curve(own, patch.boundary[at(own.next)], patch.chord(v), patch.size[at(v)]);
   }
 
-  /// @brief Returns whether each changed chord is an edge that may replace its curve and has an empty closed disc. Also
-  /// checks that no moved vertex has entered another disc, and that no inner vertex lies behind a chord.
+  /// @brief Returns whether each boundary edge that has changed is an edge of the triangulation, may replace its curve
+  /// and has an empty closed disc. Also checks that no vertex has moved into the disc of another boundary edge, and
+  /// that no inner vertex lies outside the shape.
   bool hold(const Patch& patch) const;
 
 private:
@@ -52,14 +55,14 @@ private:
 };
 
 /// @brief Returns the sum of e^2 + w e^4 over the triangles (p, ring[k], ring[k+1]), where e = eta - 1 and w =
-/// CleanupRules::quartic_weight. The quality eta = (a^2 + b^2 + c^2) / (4 sqrt(3) area) of the edges a, b, c is 1 for
-/// an equilateral triangle, smooth, and without a scale (Bank and Smith 1997). The square improves the mean, and the
-/// fourth power gives the worst triangle most weight. Returns infinity if a triangle is inverted or flat, or once the
-/// sum reaches `limit`.
-/// @param closed true if the ring is closed, false if it is the open fan of a vertex on the boundary
+/// CleanupRules::quartic_weight. The measure eta = (a^2 + b^2 + c^2) / (4 sqrt(3) area) of a triangle with edges a, b,
+/// c is 1 if the triangle is equilateral; eta is smooth and does not depend on the size of the triangle (Bank and Smith
+/// 1997). The square improves the mean, and the fourth power gives the worst triangle most weight. Returns infinity if
+/// a triangle is inverted or flat, or once the sum reaches `limit`.
+/// @param closed true if the ring goes all around p, false if p lies on the boundary and the ring is open
 double star_energy(geometry::Vec2 p, std::span<const geometry::Vec2> ring, bool closed, double limit = INFINITY);
 
-/// The energy with its derivatives with respect to p. @pre no triangle is inverted or flat
+/// The energy at p with its derivatives with respect to p. @pre no triangle is inverted or flat
 struct EnergyModel {
   double value = 0;
   geometry::Vec2 gradient;
@@ -77,20 +80,21 @@ void add_steep_energy(EnergyModel& model, geometry::Vec2 p, std::span<const geom
 /// Returns the Newton step if the model is convex, otherwise a step against the gradient; at most `limit` long.
 geometry::Vec2 newton_step(const EnergyModel& model, double limit);
 
-/// @brief Lowers the energy of one star after the other by Newton steps. No site enters the diametral disc of a chord
-/// or comes near the rim of the patch.
+/// @brief Lowers the energy of one star after the other by Newton steps. No site enters the diametral disc of a
+/// boundary edge or comes near the rim of the patch.
 class PatchMover {
 public:
   /// The arguments must outlive the object.
   PatchMover(const PatchStart& start, const PatchChords& chords) : start_(start), chords_(chords) {}
 
-  /// Makes moves thorough: then steps along the boundary are halved more often.
+  /// Sets whether moves are thorough: in that case steps along the boundary are halved more often if they do not lower
+  /// the energy.
   void set_thorough(bool is_thorough) { is_thorough_ = is_thorough; }
   /// Makes angles near 90 degrees and above cost energy.
   void set_against_obtuse(bool is_against) { is_against_obtuse_ = is_against; }
 
-  /// Makes one sweep over the free vertices of a list: first over those inside, without flips, then over those on the
-  /// boundary.
+  /// Makes one sweep over the vertices of a list that may move: first over those inside, without flips, then over those
+  /// on the boundary.
   void relax(Patch& patch, std::span<const LocalIndex> vertices);
 
 private:
@@ -108,7 +112,7 @@ private:
   const PatchChords& chords_;
   bool is_thorough_ = false, is_against_obtuse_ = false;
   std::vector<LocalIndex> ring_, shifted_; // work space
-  std::vector<geometry::Vec2> around_;     // positions of the ring
+  std::vector<geometry::Vec2> around_;     // positions of the vertices in ring_
 };
 
 } // namespace trime::cleanup

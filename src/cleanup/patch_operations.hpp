@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Insertions and deletions that may help a bad triangle.
+// Insertions and deletions of sites that may improve a bad triangle.
 #pragma once
 
 #include "cleanup/patch_mover.hpp"
@@ -11,29 +11,29 @@
 
 namespace trime::cleanup {
 
-/// A change that may help a bad triangle.
+/// A change that may improve a bad triangle.
 struct PatchOperation {
   std::array<LocalIndex, 2> removed{-1, -1}; ///< vertices that are removed
-  std::array<LocalIndex, 2> divided{-1,
-                                    -1}; ///< chords of the boundary that are divided, by the vertex where they begin
+  std::array<LocalIndex, 2> divided{
+      -1, -1}; ///< boundary edges that are divided, each named by the vertex at which it begins
   std::optional<geometry::Vec2> inserted = {}; ///< place of a new site inside
   bool inserts() const { return divided[0] >= 0 || inserted; }
   friend bool operator==(const PatchOperation&, const PatchOperation&) = default;
 };
 
-/// @brief Applies operations to a trial. After a function returns false, the trial can no longer be used.
+/// @brief Applies operations to a trial. After a method has returned false, the trial can no longer be used.
 class PatchEditor {
 public:
-  /// References must outlive the object.
+  /// The arguments must outlive the object.
   PatchEditor(const PatchStart& start, const PatchChords& chords) : start_(start), chords_(chords) {}
 
   /// @param size h at the place of a new site inside
   bool apply(Patch& trial, const PatchOperation& operation, double size) const;
   bool remove(Patch& trial, LocalIndex v) const;
-  /// Inserts a site inside. A site in the disc of a chord is pushed out of it, as in the corner of a square. Does not
-  /// change the trial if there is no room.
+  /// Inserts a site inside. If `place` lies in the disc of a boundary edge, as in the corner of a square, the site is
+  /// moved out of it. Does not change the trial if there is no room.
   bool insert(Patch& trial, geometry::Vec2 place, double size) const;
-  /// Divides the chord that begins at a vertex, in its middle or at a corner that was left out.
+  /// Divides the boundary edge that begins at a vertex, in its middle or at a corner that the edge left out.
   bool divide(Patch& trial, LocalIndex before) const;
 
 private:
@@ -41,14 +41,14 @@ private:
   const PatchChords& chords_;
 };
 
-/// @brief Divides all edges of the triangles that have a vertex of the bad one.
+/// @brief Divides all edges of the triangles that share a vertex with the bad triangle.
 class PatchRefiner {
 public:
-  /// References must outlive the object.
+  /// The arguments must outlive the object.
   PatchRefiner(const PatchChords& chords, const PatchEditor& editor) : chords_(chords), editor_(editor) {}
 
-  /// @param now the patch @param trial a copy of it, which is changed
-  /// @return false if it cannot be done; then the trial can no longer be used
+  /// @param now the patch @param trial a copy of `now`, which this method changes
+  /// @return false if the division fails; then the trial can no longer be used
   bool refine(const Patch& now, Patch& trial, const BadPlace& place);
 
 private:
@@ -63,11 +63,11 @@ private:
   std::vector<LocalIndex> ring_;        // work space
 };
 
-/// @brief Lists operations that may help the worst triangle, the most promising first.
+/// @brief Lists operations that may improve the worst triangle, the most promising first.
 class PatchOperations {
 public:
-  /// @param is_thorough if true, lists the deletion of every neighbour, otherwise only of inner ones with few
-  /// neighbours
+  /// @param is_thorough if true, the list contains the deletion of every neighbour; otherwise only of inner neighbours
+  /// that have few neighbours
   void list(const Patch& now, const BadPlace& place, bool is_thorough);
   /// Adds operations against an obtuse triangle to the list: moves alone, and a site in the middle of each edge.
   void list_against_obtuse(const Patch& now, const BadPlace& place);

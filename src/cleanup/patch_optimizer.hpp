@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tries changes around bad triangles. Runs on one thread, and knows nothing of ranks.
+// Tries changes around bad triangles. Runs on one thread and does not depend on the ranks.
 #pragma once
 
 #include "cleanup/patch.hpp"
@@ -11,17 +11,18 @@
 
 namespace trime::cleanup {
 
-/// @brief Compares a patch with its start.
+/// @brief Reports the differences between a patch and its start.
 class PatchReport {
 public:
-  /// References must outlive the object.
+  /// The arguments must outlive the object.
   PatchReport(const PatchStart& start, const PatchRests& rests) : start_(start), rests_(rests) {}
 
   /// Returns the changes of the sites since the start. @param patch see PatchOptimizer::improve
   std::vector<SiteEdit> edits(const Patch& now, std::uint64_t patch) const;
-  /// Returns the sites on the boundary whose next site or place has changed.
+  /// Returns the sites on the boundary whose place or next site has changed.
   std::vector<BoundaryLink> links(const Patch& now, std::uint64_t patch) const;
-  /// Reports all sites with triangles that are all known, if the patch has changed anything about them.
+  /// Reports all sites whose triangles are all known, if the place of the site, its worst triangle or its rest has
+  /// changed.
   std::vector<SiteVerdict> verdicts(const Patch& now, double bad_alpha);
 
 private:
@@ -42,10 +43,10 @@ private:
 };
 
 /// @brief Chooses the triangle of a patch that is improved next. Triangles are identified by their corners, beginning
-/// with the largest index, so the result does not depend on how the triangulation stores them.
+/// with the largest index, so the result does not depend on the order in which they are stored.
 class PatchWorst {
 public:
-  /// References must outlive the object.
+  /// The arguments must outlive the object.
   PatchWorst(const PatchStart& start, const PatchRests& rests) : start_(start), rests_(rests) {}
 
   /// @brief Begins a list of triangles above a limit that have not been tried.
@@ -56,10 +57,10 @@ public:
     tried_.clear();
     forget();
   }
-  /// Notes that the patch has changed. Its triangles are listed again when they are needed.
+  /// Must be called after a change of the patch. Its triangles are listed again when next() needs them.
   void forget() { is_listed_ = false; }
 
-  /// Returns the worst triangle that has not been tried and does not rest.
+  /// Returns the worst triangle that has not been tried and whose sites do not all rest.
   std::optional<Corners> next(const Patch& now);
   /// @param corners the corners that next() returned
   void set_tried(const Corners& corners) { tried_.push_back(corners); }
@@ -82,17 +83,17 @@ private:
   bool is_listed_ = false;
 };
 
-/// @brief Aspect ratios that are computed again only where vertices have moved or edges were flipped. They have the
-/// bits of Patch::alpha, but need few roots.
+/// @brief Keeps the aspect ratios of triangles, and computes a ratio again only if its vertices have moved or an edge
+/// was flipped. The ratios have the same bits as those of Patch::alpha; most need no square root.
 class KnownAlphas {
 public:
-  /// Must be called before another patch, or another number of vertices.
+  /// Must be called before the object is used for another patch, or if the number of vertices has changed.
   void forget() {
     places_.clear();
     known_.clear();
     time_ = 0;
   }
-  /// @brief Notes which vertices of the patch have moved. O(vertices). Must be called before `alpha`.
+  /// @brief Finds out which vertices of the patch have moved. Cost: O(vertices). Must be called before alpha().
   void follow(const Patch& patch) {
     const auto vertices = at(patch.mesh.vertices());
     has_moved_.assign(vertices, 1);
@@ -104,7 +105,7 @@ public:
     known_.resize(patch.mesh.triangles().size(), {{-1, -1, -1}, 0, 1});
     ++time_;
   }
-  /// Returns alpha of a triangle of the patch.
+  /// Returns the aspect ratio of a triangle of the patch.
   double alpha(const Patch& patch, const PatchMesh::Triangle& triangle) {
     const auto& [a, b, c] = triangle.vertex;
     Known& known = known_[static_cast<std::size_t>(&triangle - patch.mesh.triangles().data())];
@@ -118,25 +119,25 @@ public:
 private:
   struct Known {
     Corners vertex;
-    int time; // when it was last needed
+    int time; // value of time_ when the ratio was last needed
     double alpha;
   };
-  int time_ = 0;                        // counts the calls of follow
-  std::vector<geometry::Vec2> places_;  // by vertex: position for which `known_` was computed
-  std::vector<std::uint8_t> has_moved_; // by vertex: whether it has moved since then
-  std::vector<Known> known_;            // ratios by triangle
+  int time_ = 0;                        // number of calls of follow()
+  std::vector<geometry::Vec2> places_;  // by vertex: position for which known_ was computed
+  std::vector<std::uint8_t> has_moved_; // by vertex: whether the vertex has moved since then
+  std::vector<Known> known_;            // by triangle: its ratio
 };
 
-/// @brief Improves all triangles around a place. First it moves the sites of bad triangles. Then, beginning with the
-/// worst triangle, it tries insertions and deletions that are followed by such moves, and smaller triangles where
-/// nothing else helps. Sites on the boundary that are not corners take part: they slide along their curve, and may be
+/// @brief Improves all bad triangles around a place. First it moves their sites. Then, beginning with the worst
+/// triangle, it tries insertions and deletions, each followed by such moves, and divides triangles where nothing else
+/// improves them. Sites on the boundary take part unless they are corners: they move along their curve, and may be
 /// inserted and removed.
 ///
 /// Around a very bad triangle, moves alone would only make many other triangles worse. There an insertion or a deletion
-/// comes first if, followed by moves, it is better than these moves alone.
+/// comes first, if together with moves it gives better triangles than moves alone.
 ///
-/// The rules are those of PatchContest, PatchMover and PatchChords. It uses only + - * /, sqrt and exact predicates, so
-/// the result is a pure function of the sites.
+/// PatchContest, PatchMover and PatchChords define the rules. The class uses only + - * /, sqrt and exact predicates,
+/// so the result depends only on the sites.
 class PatchOptimizer {
 public:
   /// See PatchStart.
@@ -145,14 +146,14 @@ public:
       : options_(options), start_(boundary, curve, lattice), chords_(start_), mover_(start_, chords_),
         worst_(start_, rests_), contest_(start_, chords_, mover_, options), report_(start_, rests_),
         now_(start_.patch()), best_(start_.patch()) {}
-  PatchOptimizer(const PatchOptimizer&) = delete; // its parts refer to each other
+  PatchOptimizer(const PatchOptimizer&) = delete; // members refer to each other
   PatchOptimizer& operator=(const PatchOptimizer&) = delete;
 
-  /// @brief Tries all changes once.
+  /// @brief Tries all changes around a place once.
   /// @param size h at the center
-  /// @param sites all sites within CleanupRules::reach times `size` of `center`, in lexicographic order, at different
-  /// places
-  /// @param patch a number that no other patch has; names of new sites on the boundary are made from it
+  /// @param sites all sites within CleanupRules::reach times `size` of `center`, in lexicographic order; no two at the
+  /// same place
+  /// @param patch a number that no other patch has; the names of new sites on the boundary are computed from it
   PatchResult improve(geometry::Vec2 center, double size, std::span<const PatchSite> sites, const PatchBudget& budget,
                       std::uint64_t patch = 0);
 
@@ -177,7 +178,7 @@ private:
   PatchReport report_;
   Patch now_, best_;
   KnownAlphas alphas_;
-  std::vector<std::uint8_t> mark_; // work space by vertex
+  std::vector<std::uint8_t> mark_; // work space, by vertex
   std::vector<LocalIndex> movers_; // sites of bad triangles, and their neighbours
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Distributes the patches of a round over the ranks, because most patches lie on the boundary, whose sites belong to
-// few ranks.
+// Distributes the patches of a round over the ranks. Most patches lie on the boundary, whose sites belong to few ranks,
+// so without distribution most ranks would wait.
 #pragma once
 
 #include "cleanup/cleanup_choice.hpp"
@@ -14,29 +14,30 @@
 
 namespace trime::cleanup {
 
-/// All data that the trial of a patch needs, on any rank.
+/// All data that a rank needs to try a patch.
 struct PatchTask {
   Contender contender;
   Surroundings around;
 };
 
-/// The patches of a round, the same on all ranks.
+/// Numbers that describe the patches of a round; they are the same on all ranks.
 struct PatchCounts {
-  std::int64_t patches = 0; ///< number on all ranks
-  std::int64_t threads = 1; ///< number on all ranks
-  std::int64_t turns = 0;   ///< largest number of patches of a rank over its threads, rounded up
-  /// Returns whether the slowest rank would save CleanupRules::least_spared patches if all ranks had about equally
-  /// many.
+  std::int64_t patches = 0; ///< number of patches on all ranks
+  std::int64_t threads = 1; ///< number of threads on all ranks
+  std::int64_t turns = 0;   ///< largest value over the ranks of patches divided by threads, rounded up
+  /// Returns whether the slowest rank would try at least CleanupRules::least_spared patches fewer, one after the other,
+  /// if all ranks had about equally many.
   bool is_uneven() const { return turns >= (patches + threads - 1) / threads + CleanupRules::least_spared; }
 };
 
-/// Tries patches of this rank and of others. Must not throw or communicate. @return a result for each
+/// A function that tries patches of this rank and of others. It must not throw or communicate. @return a result for
+/// each patch
 using PatchTrial = std::function<std::vector<PatchResult>(std::span<PatchTask>)>;
 
-/// @brief Tries the patches of all ranks. If ranks have uneven numbers, patches are sent to other ranks, so that each
-/// tries about equally many; a patch and its result have about 20 KB. Collective. Takes O(log(ranks)) steps in addition
-/// to the trials.
-/// @param own the patches of this rank by number @return their results, in the same order
+/// @brief Tries the patches of all ranks. If the ranks have uneven numbers of patches, some patches are sent to other
+/// ranks, so that each rank tries about equally many; a patch and its result take about 20 KB. Collective. Takes
+/// O(log(ranks)) steps in addition to the trials.
+/// @param own the patches of this rank, by number @return their results, in the same order
 std::vector<PatchResult> try_shared(const comm::Communicator& comm, const PatchCounts& counts,
                                     std::vector<PatchTask> own, const PatchTrial& trial);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Estimates how many points a mesh will have at a factor of the relative size, without laying out its boundary.
+// Estimates how many points a mesh will have if the size field is multiplied by a factor, without laying out its
+// boundary.
 #pragma once
 
 #include "fitting/layout_context.hpp"
@@ -10,22 +11,24 @@
 
 namespace trime::fitting {
 
-/// @brief Estimates boundary sites from the integral of ds/h, and inner sites from the integral of h^-2 outside the
-/// strip along a polygon that replaces the boundary. It does not count additional sites at corners and narrow places,
-/// so it is too low by a few per cent for a boundary full of them.
+/// @brief Estimates the number of points on the boundary from the integral of ds/h, and the number inside from the
+/// integral of h^-2 outside the strip along a polygon that replaces the boundary. The estimate does not count
+/// additional points at corners and in narrow places. So for a boundary with many of these it is a few per cent lower
+/// than the number that a layout finds.
 class CountEstimate {
 public:
-  /// @param spacing distance between vertices of the polygon, which has no more vertices than the boundary
+  /// @param spacing distance between vertices of the polygon, which has at most as many vertices as the boundary
   /// @param coarsening factor on the width of the cells of the integral, see DensitySampler
   CountEstimate(const LayoutContext& context, double points, double spacing, double coarsening);
 
-  /// Returns the estimate, or nothing if the shape is smaller than the spacing, or if the size at a place of the
-  /// boundary is invalid (the layout then reports where). Collective.
+  /// Returns the estimated number of points, or nothing if the shape is smaller than the spacing, or if the size at a
+  /// place on the boundary is invalid (the layout then reports the place). Collective.
   /// @throws GeometryError, see integrate_density
   std::optional<double> points(double factor);
 
-  /// @brief Counts the boundary sites by strides of length h from now on, if these are far fewer than the length over h
-  /// at this factor: simplified curves are about as long. Collective. @return whether it does
+  /// @brief If strides of length h along the boundary are far fewer than its length over h at this factor, the estimate
+  /// counts strides from now on: curves after simplification are about as long as the strides. Collective. @return
+  /// whether it counts strides
   bool use_strides(double factor);
 
   /// Returns the share of the sites that lie on the boundary at this factor; 0 if it is not known. Collective.
@@ -42,8 +45,8 @@ private:
 
   const LayoutContext& context_;
   double points_, coarsening_;
-  sites::Stage reference_; // the polygon as if it were a mesh boundary, without points
-  double corners_ = 0;     // corners of the boundary
+  sites::Stage reference_; // the polygon, used as the boundary of a mesh without points
+  double corners_ = 0;     // number of corners of the boundary
   bool by_strides_ = false;
   std::vector<double> lengths_; // length of the curve from each vertex to its next
 };

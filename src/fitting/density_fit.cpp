@@ -202,8 +202,8 @@ private:
     StageFit& fit = best.fit;
     if (fit.inner + static_cast<double>(fit.stage.placed_first()) < enough_points * points_)
       fit.shortage = context_.options.min_size
-                         ? fmt::format("min_size = {:g} leaves no room for more", *context_.options.min_size)
-                         : "no more points fit, since the circles on the boundary edges must stay empty";
+                         ? fmt::format("with min_size = {:g} no more points fit", *context_.options.min_size)
+                         : "no more points fit, because the circles around the boundary edges must stay empty";
     return best;
   }
 

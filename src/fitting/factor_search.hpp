@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Searches the factor of the size that yields a number of points.
+// Searches the factor by which the size field is multiplied, so that the mesh has the number of points asked for.
 #pragma once
 
 #include "fitting/rules.hpp"
@@ -22,7 +22,7 @@ class FactorSearch {
 public:
   explicit FactorSearch(double goal) : goal_(1 / std::sqrt(goal)) {}
 
-  /// Forgets the trials so far, and assumes this power until there are two new trials.
+  /// Forgets the trials so far, and assumes this exponent until there are two new trials.
   void expect(double power) {
     slope_ = -0.5 * power;
     last_factor_ = 0;
@@ -41,31 +41,31 @@ public:
   }
 
 private:
-  // [1] Least slope of a secant of the inverse root of the points over the factor. 0.075 belongs to a power of -0.15.
+  // [1] Smallest slope of a secant of 1 / sqrt(points) over the factor. It belongs to an exponent of -0.15.
   static constexpr double flattest_slope = 0.075;
-  // [1] Largest slope of a secant, which belongs to a power of -3.
+  // [1] Largest slope of a secant. It belongs to an exponent of -3.
   static constexpr double steepest_slope = 1.5;
-  // [1] Two factors that differ by a smaller share give no slope.
+  // [1] No slope is computed from two factors whose relative difference is below this.
   static constexpr double apart = 0.01;
   double goal_;
-  double slope_ = 1; // relative change of the inverse root over relative change of the factor
+  double slope_ = 1; // relative change of 1 / sqrt(points) divided by the relative change of the factor
   double last_factor_ = 0, last_root_ = 0;
 };
 
-/// @brief Brackets the factor of the size that yields the points asked for. A larger factor gives fewer points.
+/// @brief Encloses the factor that yields the points asked for between two factors. A larger factor gives fewer points.
 class FactorBracket {
 public:
-  /// @param points asked for
-  /// @param smallest smallest size for a factor of 1; once it is far larger than the container, larger factors change
-  /// nothing
+  /// @param points number of points asked for
+  /// @param smallest smallest size of the field at a factor of 1; once factor times `smallest` is far larger than the
+  /// container, a larger factor changes nothing
   FactorBracket(double points, double smallest, const geometry::Box& container)
       : wanted_(points), smallest_(smallest), extent_(std::max(container.width(), container.height())),
         largest_(largest_size * (container.width() + container.height()) / smallest) {}
 
   bool has_lower() const { return low_ > 0; }
   bool has_upper() const { return high_ < INFINITY; }
-  /// Adds a trial. Returns true if it has no more points than asked for, and a smaller factor than the other trials of
-  /// this kind.
+  /// Adds a trial. Returns true if the trial has at most the points asked for, and its factor is smaller than those of
+  /// all earlier trials with at most that number.
   bool add(double factor, double points) {
     const bool same = has_upper() && !has_lower() && std::fabs(points - last_points_) < same_points * last_points_;
     saturated_ = same ? saturated_ + 1 : 0;
@@ -79,8 +79,8 @@ public:
     high_ = factor;
     return true;
   }
-  /// Returns true if no further trial helps, because the bracket is narrow, because no site fits into such sizes, or
-  /// because finer sizes do not help.
+  /// Returns true if no further trial helps: the bracket is narrow, no site fits into such large sizes, or smaller
+  /// sizes do not change the number of points.
   bool is_closed() const {
     return low_ * smallest_ > extent_ || saturated_ == saturated_trials ||
            (has_upper() && low_ > (1 - closest_factors) * high_);
@@ -94,21 +94,22 @@ public:
     const double margin = FitRules::bracket_margin * (high_ - low_);
     return std::clamp(guess, low_ + margin, high_ - margin);
   }
-  /// Returns true if no factor so far gave few enough points and larger factors change nothing.
+  /// Returns true if every trial so far had too many points and a larger factor changes nothing.
   bool is_hopeless(double factor) const { return !has_upper() && factor > largest_; }
 
 private:
-  // [trials] After this number of consecutive trials that change nothing, finer sizes do not help. One is not enough,
-  // because the first trials may be too coarse for any inner site.
+  // [trials] After this number of consecutive trials that change nothing, smaller sizes do not help. One such trial is
+  // not enough, because the sizes of the first trials may be too large for any inner site.
   static constexpr int saturated_trials = 8;
-  // [1] A trial changes nothing if its number of points differs from that of the last trial by less than this share.
+  // [1] A trial changes nothing if the relative difference between its number of points and that of the trial before is
+  // below this.
   static constexpr double same_points = 1e-3;
-  // [1] If the two ends of the bracket differ by a smaller share, no trial is made between them, because the count
-  // jumps there.
+  // [1] If the relative difference between the two ends of the bracket is below this, no trial is made between them,
+  // because the number of points jumps there.
   static constexpr double closest_factors = 1e-4;
-  // [1] Least growth of the factor after a trial that was given up because of far too many sites.
+  // [1] Smallest ratio of the next factor to this one after a trial that was stopped because it had far too many sites.
   static constexpr double overfull_step = 1.5;
-  // [width + height of the container] Largest size of the search, because larger sizes change nothing.
+  // [width + height of the container] Largest size that the search tries, because larger sizes change nothing.
   static constexpr double largest_size = 64;
   double wanted_, smallest_, extent_, largest_;
   double low_ = 0, high_ = INFINITY;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The result of a search if the points are too few for the shape, and the error if bounds forbid the edge length.
+// The result of a search when a shape needs more points than were asked for, and the error when the limits of the size
+// exclude the edge length.
 #pragma once
 
 #include "fitting/layout_context.hpp"
@@ -11,22 +12,23 @@
 
 namespace trime::fitting {
 
-/// Says that the points asked for are too few for the shape at any size. It is the same on all ranks.
+/// Says that the shape needs more points than were asked for, at any size. All ranks hold the same message.
 struct TooFewPoints {
   std::string reason; ///< a whole message for the user
 };
 
-/// The boundary with the fewest points among those tried, and where it needs most of them.
+/// The boundary with the fewest points among all trials, and the place where its sites are closest together.
 struct Fewest {
   double points = INFINITY;
-  bool counted = true; ///< if false, counting ended early, and there are more
+  bool counted = true; ///< if false, counting was stopped early, and there are more than `points`
   geometry::Segment shortest{};
 
   /// @param all_counted if true, all points of the trial were counted
   void consider(const sites::Stage& stage, double trial_points, bool all_counted = true);
 };
 
-/// Returns the message for the user. @param counted if false, counting ended early, and there are more
+/// Returns the message for the user. @param counted if false, counting was stopped early, and there are more than
+/// `fewest`
 TooFewPoints too_few_points(const LayoutContext& context, double fewest, bool counted = true);
 TooFewPoints too_few_points(const LayoutContext& context, const Fewest& fewest);
 
@@ -38,7 +40,7 @@ std::optional<TooFewPoints> too_thin(const LayoutContext& context, const sites::
 /// smaller size. Then there is no mesh with this number of points.
 bool is_jump(double points, double wanted);
 
-/// @throws ConfigError if the edge length is outside the bounds of the size
+/// @throws ConfigError if the edge length is below min_size or above max_size
 void check_edge_length(const FitOptions& options);
 
 } // namespace trime::fitting

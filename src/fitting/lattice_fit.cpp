@@ -168,7 +168,7 @@ std::variant<LatticeFit, TooFewPoints> fit_points(const LayoutContext& context, 
     fit.runs = {};
     const double laid = fit.spacing = fit.stage.size->size({});
     if (options.min_size && laid > h) {
-      fit.shortage = fmt::format("min_size = {:g} leaves no room for more", *options.min_size);
+      fit.shortage = fmt::format("with min_size = {:g} no more points fit", *options.min_size);
       return fit;
     }
     fit.runs = fitting_runs(context, fit.stage);

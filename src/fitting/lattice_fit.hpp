@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds the boundary of a uniform size, and the spacing of the lattice that yields the points or the edge length asked
-// for.
+// Finds the boundary sites for a uniform size, and the spacing of the lattice that yields the number of points or the
+// edge length asked for.
 #pragma once
 
 #include "fitting/few_points.hpp"
@@ -12,23 +12,23 @@
 
 namespace trime::fitting {
 
-/// A stage without inner sites, and its lattice spacing.
+/// A stage without inner sites, and the spacing of the lattice for its inner sites.
 struct LatticeFit {
   sites::Stage stage;
   double spacing = 1;
   placing::LatticeRuns runs; ///< runs of this rank with that spacing, if they were found on the way
-  std::string shortage;      ///< why there will be fewer points than asked for; empty if not
-  FittedSize fitted;         ///< by which the stage was laid
+  std::string shortage;      ///< why there will be fewer points than asked for; empty if there will not
+  FittedSize fitted;         ///< the size with which the stage was laid out
 };
 
-/// @brief Lays the boundary first, at a size estimated from area and perimeter. Then finds the spacing at which the
-/// lattice has as many sites as the boundary leaves. If it differs from the boundary's by more than 2 % (a boundary
-/// full of corners takes more sites than its length says), the boundary is laid again at that spacing, twice at most.
-/// If simplified curves need smaller triangles in narrow parts, the lattice is of no use: it is not looked for any
-/// further, and `fitted` gets the factor from which a search for a graded size should begin. With an edge length the
-/// boundary is laid once, at that size. Collective.
-/// @return too few points if the boundary alone needs more than those at any size, or max_size does
-/// @throws ConfigError if the edge length is outside the bounds of the size
+/// @brief First lays out the boundary, at a size estimated from area and perimeter. Then finds the spacing at which the
+/// lattice has as many sites as the points asked for minus the boundary sites. If spacing and size of the boundary
+/// differ by more than 2 % (many corners take more sites than the length of the boundary says), the boundary is laid
+/// out again at that spacing, at most twice. If curves after simplification need smaller triangles in narrow parts, a
+/// lattice does not fit. Then the search ends, and `fitted` gets the factor from which the search for a graded size
+/// should begin. If the options set an edge length, the boundary is laid out once, at that size. Collective.
+/// @return TooFewPoints if the boundary alone needs more points than were asked for at any size, or at max_size
+/// @throws ConfigError if the edge length is below min_size or above max_size
 std::variant<LatticeFit, TooFewPoints> fit_lattice(const LayoutContext& context);
 
 } // namespace trime::fitting

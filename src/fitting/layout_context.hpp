@@ -24,7 +24,7 @@ private:
   const sizing::SizeField& size_;
 };
 
-/// The input of the set-up. Keeps references; see Mesher.
+/// The input of the search for the size and of the layout. Keeps references, which must outlive it; see Mesher.
 struct LayoutContext {
   const comm::Communicator& comm;
   const geometry::Domain& domain;
@@ -32,15 +32,18 @@ struct LayoutContext {
   const FitOptions& options;
   Log& log;
   TimerTable& timers;
-  const boundary::FixedPoints& fixed; ///< fixed points, with the boundary on which sites are laid
-  bool cuts_thin_components = false;  ///< see generalise::Choice; set if no other boundary has few enough points
-  bool lowers_uniform = false;        ///< the boundary may lower a uniform size: it is treated as a graded one
-  GradedSize graded{relative_size};   ///< the size that is used in that case
-  const geometry::Boundary& given_boundary = domain.boundary(); ///< the boundary without corners at fixed points
+  const boundary::FixedPoints&
+      fixed; ///< fixed points, and the boundary on which sites are laid out, with these points as corners
+  bool cuts_thin_components = false; ///< see generalise::Choice; set if every other boundary has too many points
+  bool lowers_uniform =
+      false; ///< the boundary may lower a uniform size at some places, as it does with a size that varies
+  GradedSize graded{relative_size}; ///< the size field that replaces a uniform one if lowers_uniform is set
+  const geometry::Boundary& given_boundary =
+      domain.boundary(); ///< the boundary as it was given, without corners at fixed points
   const geometry::Lattice& lattice = domain.frame().lattice();
 
-  /// Returns the size asked for with this factor, within the smallest and the largest size. @pre this context outlives
-  /// it
+  /// Returns relative_size times this factor, within the smallest and the largest size. @pre this context outlives the
+  /// result
   sizing::ScaledSize asked_size(double factor) const {
     const sizing::SizeField& relative = lowers_uniform ? static_cast<const sizing::SizeField&>(graded) : relative_size;
     return {relative, factor, options.min_size.value_or(0), options.max_size.value_or(INFINITY)};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Estimates, without making a mesh, which size a mesh will have, what its boundary will be, and at which size no
-// feature of the shape would be simplified.
+// Estimates, without making a mesh, the size of its triangles, its boundary, and the size below which no feature of the
+// shape would be simplified.
 #pragma once
 
 #include "fitting/layout_context.hpp"
@@ -8,16 +8,16 @@
 
 namespace trime::fitting {
 
-/// The estimate for a run.
+/// The estimate of the option --dry-run.
 struct LaidOutlook {
   double factor = 1;       ///< factor of the size
   double points = 0;       ///< about the number of points
   double placed_first = 0; ///< points on the boundary and fixed points among them
   /// Largest factor found at which nothing is simplified, otherwise the smallest factor tried.
   double keeping_factor = 0;
-  bool keeps = false; ///< true if everything is kept at that factor
+  bool keeps = false; ///< true if nothing is simplified at that factor
 
-  /// Returns about how many points a mesh with another factor has.
+  /// Returns about how many points a mesh with the factor `other` has.
   double points_at(double other) const;
 };
 

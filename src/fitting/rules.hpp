@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tuned numbers of the module fitting: layouts of a stage, and the size that yields the points asked for.
+// The tuned numbers of the module fitting, for the layout of a stage and for the search of the size that yields the
+// points asked for.
 #pragma once
 
 #include <cstddef>
@@ -9,38 +10,43 @@ namespace trime::fitting {
 
 /// The numbers of the layout of a stage, of its simplified boundary, and of the outlook.
 struct LayoutRules {
-  /// [1] Trials of the size begin with the boundary that was thinned for a size smaller than the first one by this
-  /// factor. Not measured.
+  /// [1] Trials of the size begin with a boundary from which small features were removed, for a size that is smaller
+  /// than the first one by this factor. Not measured.
   static constexpr double thinned_ahead = 3;
-  /// [1] Curves that were simplified for a larger factor of the size serve while that is larger by no more than this
-  /// share. Not measured.
+  /// [1] Curves that were simplified for a larger factor of the size are used again if that factor is larger by at most
+  /// this share. Not measured.
   static constexpr double same_curves = 0.04;
-  /// [1] Curves of a smaller factor serve while that is smaller by no more than this share: they are simplified a
-  /// little less. Not measured.
+  /// [1] Curves that were simplified for a smaller factor of the size are used again if that factor is smaller by at
+  /// most this share: they are simplified a little less than the size allows. Not measured.
   static constexpr double finer_curves = 0.13;
-  /// [pieces] Boundaries with at least this number are simplified by one rank for all. With fewer that takes less than
-  /// 1 MB of memory and some hundredths of a second. Not measured.
+  /// [pieces] A boundary with at least this number of pieces is simplified by one rank, which sends the result to the
+  /// others. With fewer pieces every rank simplifies it, which takes less than 1 MB of memory and some hundredths of a
+  /// second. Not measured.
   static constexpr std::int64_t many_pieces = 2048;
-  /// [1] Simplified curves stay by so much nearer to the shape than the certificate wants: factors of sizes are
-  /// rounded. Not measured.
+  /// [1] Simplified curves stay closer to the shape than the certificate requires by this share of the distance,
+  /// because factors of sizes are rounded. Not measured.
   static constexpr double distance_slack = 1e-9;
-  /// [rounds] How often curves that are too far from the shape are made again with smaller sizes at these places; after
+  /// [rounds] How often curves that lie too far from the shape are made again with smaller sizes at these places; after
   /// that, nothing is simplified. Sizes like abs(sin(50 x)) + 1e-7 need 1 or 2 rounds. Not measured.
   static constexpr int nearer_rounds = 8;
-  /// [h] If the boundary needs triangles smaller than this at a place, a uniform size is lowered there. Not measured.
+  /// [h] If the boundary needs triangles with edges shorter than this at a place, a uniform size is lowered there. Not
+  /// measured.
   static constexpr double lowering_pays = 0.6;
-  /// [1] Factor on the width of the cells of the integral that fits the size of the last division. Its error is a few
-  /// thousandths.
+  /// [1] Factor on the width of the cells of the integral that fits the size after the last division of the mesh into
+  /// smaller triangles. The error of this integral is a few thousandths.
   static constexpr double coarse_integral = 4;
-  /// [points] The outlook of --dry-run fits the size for at most this number, and scales it. Not measured.
+  /// [points] The estimate of --dry-run fits the size for at most this number of points, and scales the result. Not
+  /// measured.
   static constexpr double outlook_points = 1e5;
-  /// [trials] Number of sizes at which the outlook simplifies the boundary. The last is within a few per cent of the
-  /// largest that keeps everything. Not measured.
+  /// [trials] Number of sizes at which the estimate of --dry-run simplifies the boundary. The last size is within a few
+  /// per cent of the largest size at which nothing is simplified. Not measured.
   static constexpr int outlook_trials = 12;
-  /// [sites] The outlook tries no size with more sites on the boundary, because the nodes of long walls grow with them;
-  /// 3e4 on 156 rings with thin gaps took 16 s. It tries one outlook_step in any case. Not measured.
+  /// [sites] The estimate of --dry-run tries no size with more sites on the boundary, because the nodes of long walls
+  /// increase with them; 3e4 sites on 156 rings with thin gaps took 16 s. One size that is smaller by outlook_step is
+  /// tried in any case. Not measured.
   static constexpr double outlook_sites = 1e4;
-  /// [1] Until everything is kept, the outlook tries sizes that are smaller by this factor. Not measured.
+  /// [1] Until nothing is simplified, the estimate of --dry-run tries sizes that are smaller by this factor each time.
+  /// Not measured.
   static constexpr double outlook_step = 10;
   /// [points] The outlook advises no more points than this, since it tries what it advises. Not measured.
   static constexpr double advice_points = 1e6;
@@ -51,44 +57,48 @@ struct LayoutRules {
   /// [samples] Number along a side of the box around the shape. The slope of the size is measured between two samples.
   /// Not measured.
   static constexpr int slope_samples = 64;
-  /// [1] With `min_size`, the program warns of short chords only if they are more than this share of all. Coasts have a
-  /// few in almost every run, at narrow parts where the user has chosen so; the report names the worst triangle in any
-  /// case. Not measured.
+  /// [1] If `min_size` is set, the program warns of short boundary edges only if they are more than this share of all
+  /// boundary edges. Coasts have a few short ones in almost every run, at narrow parts that the user has allowed with
+  /// `min_size`; the report names the worst triangle in any case. Not measured.
   static constexpr double warned_share_of_chords = 0.01;
 };
 
 /// The numbers of the search for the size that yields the points asked for.
 struct FitRules {
-  /// [1] Least change of a factor or a spacing while the bracket has only one end.
+  /// [1] Smallest relative change of a factor or a spacing while the bracket has only one end.
   static constexpr double least_step = 0.002;
-  /// [width of the bracket] Least distance of a trial from the ends of a bracket. Counts jump, and a secant alone would
-  /// converge slowly.
+  /// [width of the bracket] Smallest distance of a trial from the ends of a bracket. The number of points jumps, so a
+  /// secant without this margin would converge slowly.
   static constexpr double bracket_margin = 0.1;
-  /// [points asked for] A trial is accepted if at most this share is missing, or the size inside makes up for it.
+  /// [points asked for] A trial is accepted if at most this share of the points is missing, or if scaling the size
+  /// inside can add the missing points.
   static constexpr double close_enough = 0.004;
-  /// [close_enough] The search aims at fewer points than asked for by this share, because more are not accepted.
+  /// [close_enough] The search aims at fewer points than asked for by this share, because trials with more points than
+  /// asked for are not accepted.
   static constexpr double goal_below = 0.4;
-  /// [1] Least factor by which the size may be scaled while boundary sites stay. Their chords stay within 2 % of h.
+  /// [1] Smallest factor by which the size may be scaled while boundary sites stay. Boundary edges then stay within 2 %
+  /// of h.
   static constexpr double least_scale = 0.98;
   /// [1] Largest factor by which the size may be scaled while boundary sites stay.
   static constexpr double most_scale = 1.02;
-  /// [uniform h] Distance between the vertices of the polygon of an estimate.
+  /// [uniform h] Distance between the vertices of the polygon that replaces the boundary in an estimate.
   static constexpr double reference_spacing = 0.25;
-  /// [1] Least factor on the width of the cells of the integral of an estimate, which a layout corrects later.
+  /// [1] Smallest factor on the width of the cells of the integral in an estimate. A layout corrects the error later.
   static constexpr double reference_coarsening = 8;
-  /// [1] Power of the factor that the number of points follows elsewhere, as the area over h squared.
+  /// [1] Exponent with which the number of points depends on the factor away from corners: the number is the area over
+  /// h squared.
   static constexpr double uncrowded_power = -2;
-  /// [1] Largest ratio by which a secant step changes the factor.
+  /// [1] Largest ratio by which one secant step changes the factor.
   static constexpr double farthest_step = 4;
-  /// [sites] Least number of a loop in an estimate, because no polygon has fewer.
+  /// [sites] Smallest number of sites of a loop in an estimate, because no polygon has fewer vertices.
   static constexpr double least_sites = 3;
-  /// [points asked for] In estimates and trials, counting ends if a part of a tile alone has this number of sites.
-  /// During a search, sizes with narrow valleys gave 10^5 times as many, and took a minute. Not measured.
+  /// [points asked for] In estimates and trials, counting ends if a part of one tile has this number of sites. During a
+  /// search, sizes with narrow valleys gave 10^5 times as many, and took a minute. Not measured.
   static constexpr double hopelessly_many = 16;
   /// [h] Step of the integral along the boundary in an estimate.
   static constexpr double integral_step = 1;
-  /// [1] If strides of length h along the boundary are fewer than this share of its length over h, it is ragged, and
-  /// will be simplified: estimates go by the strides. Not measured.
+  /// [1] The boundary counts as ragged if strides of length h along it are fewer than this share of its length over h.
+  /// A ragged boundary will be simplified, so estimates count the strides. Not measured.
   static constexpr double ragged_strides = 0.7;
   /// [1] An estimate for a ragged boundary is raised by this times the square of the share of sites on the boundary,
   /// for the points that limits of the size will take. Measured on meshes of five coasts with 5e3 to 2e4 points: 3.4

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Simplifies the curves of the shape to the resolution of a size, as near to them as the certificate requires.
+// Simplifies the curves of the shape to the resolution of a size, so little that the certificate accepts their distance
+// from the shape.
 #pragma once
 
 #include "boundary/boundary_sizes.hpp"
@@ -18,40 +19,41 @@ struct CurvesAtSize {
   double factor = 0;                                    ///< factor of the relative size
   std::shared_ptr<const generalise::Generalised> found; ///< null if nothing was simplified
   std::shared_ptr<const boundary::SizeSamples> samples; ///< samples of the relative size on it; made when needed
-  bool held = false;                                    ///< if true, the curves are used at other factors, too
+  bool held = false;                                    ///< if true, the curves are also used at other factors
 
   // Only on ranks that simplify, see share_simplified_curves.
-  double thinned_factor = 0;                           ///< factor at which the next member was made
-  std::shared_ptr<const geometry::Boundary> thinned{}; ///< the boundary without features far below smaller sizes, with
-                                                       ///< which each trial begins; null if it has no such features
-  std::shared_ptr<const geometry::PieceTree> given{};  ///< tree over the boundary of the shape; made when needed
+  double thinned_factor = 0; ///< factor at which `thinned` was made
+  std::shared_ptr<const geometry::Boundary>
+      thinned{}; ///< the boundary with which each trial begins, without features that are far smaller than the sizes of
+                 ///< the next trials; null if it has no such features
+  std::shared_ptr<const geometry::PieceTree> given{}; ///< tree over the boundary of the shape; made when needed
 };
 
-/// Returns how much the boundary is simplified.
+/// Returns the options of the simplification.
 generalise::Choice generalise_choice(const LayoutContext& context);
 
-/// Returns whether the boundary is simplified.
+/// Returns whether this run simplifies the boundary.
 bool generalises(const LayoutContext& context);
 
-/// Returns the h that limits the simplification: h asked for, scaled if the user has set another distance than the
-/// default.
+/// Returns the h to which the simplification refers: the h asked for, scaled if the user has set another distance than
+/// the default.
 sizing::ScaledSize generalised_size(const LayoutContext& context, const sizing::SizeField& asked);
 
-/// @brief Simplifies the boundary for a size, unless it was simplified for about the same factor, or is held. Where a
-/// curve moves to places with much smaller sizes, it may lie farther from the shape than the certificate allows. Then
-/// the boundary is simplified again with smaller sizes around these places; after a few rounds nothing is simplified.
-/// Local: all ranks do the same. O(n log n) for n pieces.
-/// @param asked the size, `factor` times the relative one
+/// @brief Simplifies the boundary for a size, unless it was simplified for about the same factor, or `curves` is held.
+/// A curve that moves to places with much smaller sizes may lie farther from the shape than the certificate allows.
+/// Then the boundary is simplified again with smaller sizes around these places; after a few rounds nothing is
+/// simplified. Local: all ranks get the same result. Cost: O(n log n) for n pieces.
+/// @param asked the size: the relative size times `factor`
 /// @throws GeometryError if a size is not positive and finite
 void simplify_curves(const LayoutContext& context, const sizing::SizeField& asked, double factor, CurvesAtSize& curves);
 
-/// Returns whether rank 0 simplifies the boundary for all ranks because it has many pieces. The result is the same on
-/// all ranks.
+/// Returns whether rank 0 simplifies the boundary for all ranks because it has many pieces. All ranks return the same.
 bool one_rank_simplifies(const LayoutContext& context);
 
-/// @brief If one rank simplifies for all, it does so here and sends the result, so that the others need neither the
-/// memory nor the caches of their node. simplify_curves then finds the work done. Otherwise does nothing. Collective.
-/// @throws GeometryError on all ranks, as simplify_curves does
+/// @brief If rank 0 simplifies for all ranks, it does so here and sends the result, so that the other ranks save memory
+/// and the shared caches of their node. A later simplify_curves then has nothing to do. Otherwise this function does
+/// nothing. Collective.
+/// @throws GeometryError on all ranks in the same cases as simplify_curves
 void share_simplified_curves(const LayoutContext& context, const sizing::SizeField& asked, double factor,
                              CurvesAtSize& curves);
 

@@ -44,8 +44,8 @@ void warn_of_steep_sizes(const Stage& stage, const geometry::Boundary& boundary,
       look(p, {0, stride.y});
     }
   if (steepest > warned_slope)
-    log.warning("the size field has gradient {:.3g} near {}; triangles can follow about 0.5: expect "
-                "fewer points and small angles, or use more points or a smoother size",
+    log.warning("the size field has gradient {:.3g} near {}, but triangles can follow a gradient of at most about 0.5: "
+                "expect fewer points and small angles, or use more points or a smoother size",
                 steepest, Place(place, 4));
 }
 
@@ -67,8 +67,8 @@ void warn_of_fine_features(const Stage& stage, bool has_least_size, Log& log) {
   }
   const double share = has_least_size ? LayoutRules::warned_share_of_chords : 0;
   if (static_cast<double>(count) > share * static_cast<double>(sites.size()))
-    log.warning("{} of {} boundary edges are far shorter than the requested size there: expect small angles next to "
-                "them; the worst, {:.3g} long where the size is {:.3g}, is at {}{}",
+    log.warning("{} of {} boundary edges are far shorter than the size asked for there: expect small angles next to "
+                "them; the worst edge is {:.3g} long where the size is {:.3g}, at {}{}",
                 count, sites.size(), length, size, Place(place, 6),
                 has_least_size ? "; a smaller min_size would help" : "");
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The stage at the size that a search has found.
+// The stage that is laid out at the size that a search has found.
 #pragma once
 
 #include "sites/stage.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Smooths curves that are rougher than the resolution.
+// Smooths curves that are rougher than the resolution of the mesh.
 #pragma once
 
 #include "trime/geometry/boundary.hpp"
@@ -16,13 +16,13 @@ struct SmoothedCurves {
   std::int64_t vertices = 0; ///< number of vertices of the given curves that were replaced
 };
 
-/// @brief Returns the boundary with its ragged runs smoothed. Where it turns back and forth within about h, curve
-/// shortening flow moves it until these turns, or features of the size `reach`, are gone. Under this flow simple curves
-/// stay simple and do not meet (Grayson, J. Diff. Geom. 26, 1987); each loop keeps its area. Curves that turn one way
-/// only, corners with smooth arms, arcs, and vertices that the user has asked for do not move. Next to these, curves
-/// may cross in rare cases; the caller must check. Returns null if nothing is ragged. Each of a few steps takes
-/// O(pieces + length / h).
-/// @param reach [h]
+/// @brief Returns the boundary with its ragged stretches smoothed. Where a curve turns back and forth within about h,
+/// curve-shortening flow moves it until these turns, or features of the size `reach`, are gone. Under this flow simple
+/// curves stay simple and do not meet (Grayson, J. Diff. Geom. 26, 1987); each loop keeps its area. Curves that turn in
+/// one direction only, corners with smooth sides, arcs, and vertices that the user asked for do not move. Next to
+/// these, curves may cross in rare cases; the caller must check. Returns null if no curve is ragged. Cost: O(pieces +
+/// length / h) for each of a few steps.
+/// @param reach [h] features of this size are smoothed away
 /// @throws GeometryError if a size is not positive and finite
 std::unique_ptr<SmoothedCurves> smooth_ragged_runs(const geometry::Boundary& boundary, const sizing::SizeField& size,
                                                    const geometry::Lattice& lattice, double reach);

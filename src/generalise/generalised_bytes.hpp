@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Packs simplified curves for other ranks.
+// Packs simplified curves into bytes, to send them to other ranks.
 #pragma once
 
 #include "generalise/generalise.hpp"
@@ -9,11 +9,11 @@
 
 namespace trime::generalise {
 
-/// Packs the curves and their counts, for a machine of the same kind. O(pieces)
+/// Packs the curves and the counts of changes, for machines of the same kind. Cost: O(pieces).
 std::vector<std::byte> to_bytes(const Generalised& all);
 
-/// Unpacks the result of to_bytes(). O(pieces)
-/// @param given the boundary that was simplified, from which names of parts and periods are taken
+/// Unpacks the result of to_bytes(). Cost: O(pieces).
+/// @param given the boundary that was simplified; names of parts and periods are taken from it
 Generalised generalised_of_bytes(std::vector<std::byte> bytes, const geometry::Boundary& given);
 
 } // namespace trime::generalise

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes the closed loops around the triangles that are inside.
+// Makes closed loops around the triangles that lie inside the shape.
 #pragma once
 
 #include "generalise/curve_map.hpp"
@@ -8,13 +8,13 @@
 
 namespace trime::generalise {
 
-/// The place of each vertex after some were moved; empty if no vertex was moved.
+/// The position of each vertex after some were moved; empty if no vertex was moved.
 using MovedVertices = std::vector<geometry::Vec2>;
 
-/// @brief Makes the loops around the triangles that are inside, from the remaining pieces of the given boundary and
-/// straight pieces elsewhere. Unchanged loops keep their bits. The tag of a loop goes to the largest new loop with
-/// pieces of it; other loops get new tags.
-/// @param labels labels by triangle with which no loops touch, see separate_touching_loops
+/// @brief Makes the loops around the triangles that lie inside, from the remaining pieces of the given boundary and
+/// straight pieces elsewhere. Unchanged loops are bit-identical. The tag of a given loop goes to the largest new loop
+/// that contains pieces of it; other loops get new tags.
+/// @param labels labels of triangles for which no loops touch, see separate_touching_loops
 geometry::Boundary build_loops(const CurveMap& map, const std::vector<char>& labels, const MovedVertices& moved);
 
 /// @brief Changes labels until no two loops around the inside meet in a vertex. Where they meet, the part with the

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Thins curves that turn back and forth over distances far below the resolution, or that have far too many vertices for
-// it.
+// Removes vertices from curves that turn back and forth over distances far below the resolution of the mesh, or that
+// have far more vertices than the mesh needs.
 #pragma once
 
 #include "trime/geometry/boundary.hpp"
@@ -12,23 +12,25 @@
 
 namespace trime::generalise {
 
-/// Says how curves are thinned.
+/// Options for removing vertices of curves.
 struct Thinning {
-  double share; ///< [h] vertices nearer to each other may go
+  double share; ///< [h] vertices nearer to each other than this may be removed
   enum Extent : char {
     once,
-    to_the_end, ///< loops with far too many vertices until nothing changes, and others once
-    dense       ///< the same, and others not at all
+    to_the_end, ///< loops with far too many vertices until nothing changes, and other loops once
+    dense       ///< loops with far too many vertices until nothing changes, and no other loops
   } extent = once;
 };
 
-/// @brief Returns the boundary with straight pieces in place of ragged runs of straight pieces, and of smooth runs with
-/// vertices that are even closer together. A run is ragged if it turns by more than GeneraliseRules::ragged_turn over a
-/// distance of `share` h. A vertex stays where it is or is removed. A removed vertex lies within about share h of a
-/// vertex that stays, or within a few times that if thinned to the end. The sharpest turns stay. If the curves were
-/// simple, they stay simple, and all nodes on them and all `inside` stay on their side: a vertex stays if any of these
-/// lies in the triangle with its neighbours (vertex_tree.hpp). Null if nothing goes. O(pieces log(pieces))
-/// @param inside lattice points @throws GeometryError if a size is not positive and finite
+/// @brief Returns the boundary with fewer vertices in ragged sequences of straight pieces, and in smooth sequences
+/// whose vertices are even closer together. A sequence is ragged if it turns by more than GeneraliseRules::ragged_turn
+/// over a distance of `share` h. A vertex either stays in place or is removed. A removed vertex lies within about
+/// `share` h of a vertex that stays, or within a few times that distance if the loop is thinned until nothing changes.
+/// The sharpest turns stay. If the curves were simple, they stay simple, and all nodes on them and all points `inside`
+/// stay on their side: a vertex stays if any of these lies in the triangle of the vertex and its neighbours
+/// (vertex_tree.hpp). Returns null if no vertex is removed. Cost: O(pieces log(pieces)).
+/// @param inside points of the coordinate lattice
+/// @throws GeometryError if a size is not positive and finite
 std::unique_ptr<geometry::Boundary> without_ragged_runs(const geometry::Boundary& boundary,
                                                         const sizing::SizeField& size, const geometry::Lattice& lattice,
                                                         std::span<const geometry::Vec2> inside, Thinning thinning);

@@ -1,52 +1,54 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tuned numbers of the module generalise, which simplifies boundaries.
+// The tuned numbers of the module generalise, which simplifies boundaries to the resolution of the mesh.
 #pragma once
 
 #include <cstddef>
 
 namespace trime::generalise {
 
-/// The numbers of the simplification.
+/// The numbers that decide how a boundary is simplified.
 struct GeneraliseRules {
-  /// [h] Parts of the shape narrower than this are cut. Not measured.
+  /// [h] Parts of the shape that are narrower than this are cut. Not measured.
   static constexpr double narrow_inside = 0.5;
-  /// [h] Parts of the outside narrower than this are closed, or widened to it. Not measured.
+  /// [h] Parts of the outside that are narrower than this are filled, or widened to this width. Not measured.
   static constexpr double narrow_outside = 0.33;
-  /// [narrow width] A part that is nowhere narrower than this is not changed. Otherwise parts of constant width, about
-  /// the narrow width, would be cut to pieces where nodes happen to face each other. Not measured.
+  /// [narrow width] A part that is nowhere narrower than this is not changed. Without this limit, parts with a constant
+  /// width of about the narrow width would be cut to pieces where nodes happen to face each other. Not measured.
   static constexpr double clearly_narrow = 0.75;
-  /// [h] A narrow dead end that is less deep is left to the layout, whose chords pass over it. Not measured.
+  /// [h] A narrow dead end that is less deep is not cut; the boundary edges of the mesh pass over it. Not measured.
   static constexpr double least_depth = 0.1;
-  /// [h] A dead end is a corner if its arms are straight until they are this far apart. Not measured.
+  /// [h] A dead end counts as a corner if its sides are straight until they are this far apart. Not measured.
   static constexpr double corner_width = 0.5;
-  /// [width] How far the sides of a corner may lie from two straight arms. Not measured.
+  /// [width] Largest distance of the sides of a corner from two straight lines. Not measured.
   static constexpr double straight_arms = 0.15;
   /// [narrow width] Largest distance between nodes of the curve near narrow parts. Not measured.
   static constexpr double node_spacing = 0.4;
-  /// [narrow width] Nodes are added where the other side is nearer than this. Not measured.
+  /// [narrow width] Nodes are added to a curve where the other side is nearer than this. Not measured.
   static constexpr double node_reach = 1.5;
-  /// [rounds] Rounds of adding nodes; each node at least halves a spacing. Not measured.
+  /// [rounds] Number of rounds in which nodes are added; each new node at least halves a distance between nodes. Not
+  /// measured.
   static constexpr int node_rounds = 24;
   /// [radians] Largest turn of an arc between two nodes: 15 degrees. Not measured.
   static constexpr double arc_step = 0.2617993877991494;
-  /// [rounds] Largest number of rounds that separate loops that touch in a vertex. Not measured.
+  /// [rounds] Largest number of rounds in which loops that touch in a vertex are separated. Not measured.
   static constexpr int touch_rounds = 50;
   /// [h] A narrow part of the outside is widened only if a vertex there moves by more than this. Otherwise the next
-  /// pass would move it again by less. Not measured.
+  /// pass would move the vertex again by a smaller distance. Not measured.
   static constexpr double least_shift = 0.01;
-  /// [rounds] Largest number of rounds that open parts of the outside again, because they became narrow parts of the
-  /// shape when they were closed. After these rounds, all of them are opened. Not measured.
+  /// [rounds] Largest number of rounds in which filled parts of the outside are opened again, because filling made
+  /// narrow parts of the shape. After these rounds, all filled parts are opened. Not measured.
   static constexpr int opening_rounds = 8;
   /// [distance from the end] Largest widening of a slit, as a share of the distance from its end. Not measured.
   static constexpr double slit_taper = 0.4;
-  /// [width of a slit] Vertices on its sides are joined if they are nearer to each other. Not measured.
-  static constexpr double thinned = 0.5;
-  /// [1] Largest difference between the shifts of neighbours on a curve, over their distance. Not measured.
-  static constexpr double steepest_shift = 0.6;
-  /// [rounds] Number of rounds that make shifts less steep. Not measured.
-  static constexpr int calming_rounds = 40;
-  /// [rounds] Number of rounds that halve displacements that would invert a triangle; after these they are dropped. Not
+  /// [width of a slit] Vertices on the sides of a slit are joined if they are nearer to each other than this. Not
   /// measured.
+  static constexpr double thinned = 0.5;
+  /// [1] Largest difference between the shifts of two neighbours on a curve, divided by their distance. Not measured.
+  static constexpr double steepest_shift = 0.6;
+  /// [rounds] Number of rounds in which steep differences between shifts are reduced. Not measured.
+  static constexpr int calming_rounds = 40;
+  /// [rounds] Number of rounds in which displacements that would invert a triangle are halved; displacements that would
+  /// still invert a triangle are dropped. Not measured.
   static constexpr int displacement_rounds = 12;
   /// [h] Ragged runs of a curve lose vertices that are nearer to each other. Measured on twelve meshes of coasts: with
   /// 0.05, the simplification takes 1.25 times as long, the mean of the largest alphas is 1.250 instead of 1.238, and
@@ -59,22 +61,22 @@ struct GeneraliseRules {
   /// narrow parts are searched. Measured, with passes that end earlier: the boundary of a coast of 10^6 segments with
   /// 10^5 points takes 9 s instead of 17 s.
   static constexpr double dense_loss = 0.25;
-  /// [rounds] Largest number of rounds that thin a dense loop. Each may halve it; later ones remove single vertices.
-  /// Not measured.
+  /// [rounds] Largest number of rounds that thin a dense loop. A round may halve the number of vertices; later rounds
+  /// remove single vertices. Not measured.
   static constexpr int dense_rounds = 30;
-  /// [1] A curve is ragged where the sum of 1 - cosine of its turns exceeds this over the distance thinned_share: one
-  /// turn of 75 degrees, or several smaller ones. Not measured.
+  /// [1] A curve is ragged where the sum of 1 - cosine of its turns exceeds this number over the distance
+  /// thinned_share: one turn of 75 degrees, or several smaller turns. Not measured.
   static constexpr double ragged_turn = 0.75;
-  /// [vertices] Smallest number that a loop keeps. Not measured.
+  /// [vertices] Smallest number of vertices that a loop keeps. Not measured.
   static constexpr std::size_t least_vertices = 6;
-  /// [h] Holes with a smaller perimeter are filled: no triangle of size h fits around them. Not measured.
+  /// [h] A hole with a smaller perimeter is filled, because no triangle of size h fits around it. Not measured.
   static constexpr double smallest_hole = 3;
-  /// [h] Narrow parts of the outside next to a component with a smaller perimeter are closed, so that small components
+  /// [h] Narrow parts of the outside next to a component with a smaller perimeter are filled, so that small components
   /// join before they are dropped. Not measured.
   static constexpr double small_component = 5;
-  /// [h squared] What lies between narrow parts is below the resolution if its area is smaller. A disc of this area has
-  /// a perimeter of 3.5 h. Measured: with 2, the points of 56 islands that nearly touch jump so much that their
-  /// boundary is that for triangles twice as large.
+  /// [h squared] A body between narrow parts counts as smaller than the triangles if its area is smaller than this. A
+  /// disc of this area has a perimeter of 3.5 h. Measured: with 2, the number of points for 56 islands that nearly
+  /// touch jumps so much that their boundary is simplified for triangles twice as large.
   static constexpr double least_body = 1;
   /// [h squared] A body with a smaller area does not stay alone where the parts that join it are cut: that would leave
   /// about a dozen triangles. Not measured.
@@ -83,17 +85,19 @@ struct GeneraliseRules {
   /// lowered to that. Measured: with 0.25, 56 islands that nearly touch have a boundary for triangles 1.8 times as
   /// large.
   static constexpr double joining_width = 0.35;
-  /// [rounds] If all of the shape is narrow, half the width counts as narrow; so often at most. Not measured.
+  /// [rounds] If all of the shape is narrow, half the width counts as narrow; this is the largest number of such
+  /// halvings. Not measured.
   static constexpr int narrower_rounds = 20;
-  /// [passes] Largest number of passes over a boundary. Later passes treat what earlier ones have left. Not measured.
+  /// [passes] Largest number of passes over a boundary. Later passes treat narrow parts that earlier passes have left.
+  /// Not measured.
   static constexpr int most_passes = 8;
-  /// [h] Smaller features of ragged curves are smoothed away. Not measured.
+  /// [h] Features of ragged curves that are smaller than this are smoothed away. Not measured.
   static constexpr double flow_reach = 0.45;
   /// [steps] Number of steps of the smoothing; each step finds again where the curve is still ragged. Not measured.
   static constexpr int flow_steps = 8;
   /// [h] Distance between nodes on curves that are smoothed. Not measured.
   static constexpr double flow_spacing = 0.12;
-  /// [flow_spacing] Nodes that have come nearer to each other are joined. Not measured.
+  /// [flow_spacing] Nodes that have come nearer to each other than this are joined. Not measured.
   static constexpr double flow_join = 0.4;
   /// [h] Nodes that have moved go if the curve without them lies nearer to them than this. Not measured.
   static constexpr double flow_flat = 0.003;
@@ -101,33 +105,37 @@ struct GeneraliseRules {
   static constexpr double flow_longest = 0.5;
   /// [h] Shorter distances between nodes count as this long, so that rates stay finite. Not measured.
   static constexpr double flow_least_way = 0.005;
-  /// [h] Turns back and forth within this distance along the curve, to both sides, make it ragged. Not measured.
-  static constexpr double ragged_way = 1;
-  /// [radians] The curve begins to move if the sum of all turns there exceeds the net turn by this. Not measured.
-  static constexpr double least_ragged = 0.5;
-  /// [radians] The curve moves freely if the sum exceeds the net turn by this in addition to least_ragged. Not
+  /// [h] A curve is ragged where it turns back and forth within this distance along the curve, to both sides. Not
   /// measured.
+  static constexpr double ragged_way = 1;
+  /// [radians] The curve begins to move if the sum of the absolute turns there exceeds the net turn by this angle. Not
+  /// measured.
+  static constexpr double least_ragged = 0.5;
+  /// [radians] The curve moves freely if the sum of the absolute turns exceeds the net turn by this angle in addition
+  /// to least_ragged. Not measured.
   static constexpr double ragged_range = 0.5;
-  /// [radians] Smaller turns are not corners: 45 degrees. Not measured.
+  /// [radians] Turns smaller than this do not count as corners: 45 degrees. Not measured.
   static constexpr double close_turn = 0.7853981633974483;
-  /// [radians] Between corners that are sharper by this, the curve moves freely: 30 degrees. Not measured.
+  /// [radians] Between corners that turn by this angle more than that, the curve moves freely: 30 degrees. Not
+  /// measured.
   static constexpr double close_range = 0.5235987755982988;
-  /// [h] Corners with a shorter distance between them are smoothed. Not measured.
+  /// [h] Two corners with a shorter distance between them are smoothed. Not measured.
   static constexpr double corner_arm = 1;
-  /// [h] Distance to both sides of such corners within which the curve moves, too. Not measured.
+  /// [h] The curve also moves within this distance on both sides of such corners. Not measured.
   static constexpr double beside_corner = 0.25;
   /// [h] Largest distance by which smoothing moves a vertex. Together with earlier cuts and widenings, curves stay
-  /// within 0.5 h. Not measured.
+  /// within 0.5 h of the given ones. Not measured.
   static constexpr double flow_most = 0.24;
   /// [h] Largest outward step by which a smoothed loop grows to keep its area. Not measured.
   static constexpr double most_outward = 0.03;
-  /// [rounds] If smoothed curves cross, it is tried again with half the reach; then nothing is smoothed. Not measured.
+  /// [rounds] If smoothed curves cross, smoothing is repeated with half the reach; after this number of rounds no curve
+  /// is smoothed. Not measured.
   static constexpr int flow_rounds = 3;
   /// [passes] Largest number of passes for narrow parts after smoothing. Not measured.
   static constexpr int late_passes = 2;
-  /// [h] Neighbouring corners nearer to each other than this become one. Not measured.
+  /// [h] Neighbouring corners that are nearer to each other than this become one corner. Not measured.
   static constexpr double close_corners = 0.1;
-  /// [1] Least 1 - cosine of the turn of such a corner: 30 degrees. Not measured.
+  /// [1] Smallest 1 - cosine of the turn of a corner that is joined with another one: 30 degrees. Not measured.
   static constexpr double corner_turn = 0.13;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A constrained Delaunay triangulation of a few points of the plane on one thread, with which narrow parts of a
-// boundary are found. The mesh itself comes from the module delaunay.
+// A constrained Delaunay triangulation of a few points, on one thread, with which narrow parts of a boundary are found.
+// The mesh itself is made by other code, in the module delaunay.
 #pragma once
 
 #include "trime/core/types.hpp"
@@ -15,28 +15,30 @@
 
 namespace trime::generalise {
 
-/// @brief The triangulation of points inside a box and of the corners of the box; some edges are constrained.
+/// @brief The triangulation of points inside a box, and of the corners of the box. Some edges are constrained.
 ///
-/// Half-edge 3 t + k of triangle t leads from its vertex k to its vertex k + 1, interior on the left. Vertices 0 to 3
-/// are the corners of the box. Every edge without constraint is locally Delaunay (Lawson 1977; Sloan 1993 for
-/// constraints). All decisions are exact, so the result depends only on points, order of insertion and constraints.
+/// Half-edge 3 t + k of triangle t leads from its vertex k to its vertex k + 1, with the triangle on the left. Vertices
+/// 0 to 3 are the corners of the box. Every edge without constraint is locally Delaunay (Lawson 1977; Sloan 1993 for
+/// constraints). All decisions are exact, so the result depends only on the points, the order of insertion and the
+/// constraints.
 class Triangulation {
 public:
   using HalfEdge = LocalIndex;
   static constexpr LocalIndex none = -1;
 
-  /// @param box its corners are lattice points; all points lie strictly inside
+  /// @param box its corners are points of the coordinate lattice; all points lie strictly inside
   Triangulation(const geometry::Box& box, const geometry::Lattice& lattice);
 
   void reserve(std::size_t points);
-  /// @brief Returns the vertex at p; makes a new one if no vertex lies there. O(steps of the walk from the last point),
-  /// so points should come in the order of a space-filling curve.
+  /// @brief Returns the vertex at p; makes a new vertex if none lies there. Cost: O(steps of the walk from the last
+  /// point), so points should come in the order of a space-filling curve.
   LocalIndex insert(geometry::Vec2 p);
-  /// @brief Makes the edge from a to b, a constraint with `mark` (not negative), and with -1 - mark from b to a.
-  /// @return false, without a new constraint, if another vertex or a constraint is in the way
+  /// @brief Makes the edge from a to b a constraint with the mark `mark`, which is not negative; from b to a the mark
+  /// is -1 - mark.
+  /// @return false, without a new constraint, if another vertex or a constraint lies between a and b
   bool constrain(LocalIndex a, LocalIndex b, std::int32_t mark);
-  /// @brief Makes a new vertex near the constrained edge e, which becomes two edges with its mark.
-  /// @return the vertex, or `none` if p is too near to other vertices for the lattice
+  /// @brief Makes a new vertex near the constrained edge e. The edge becomes two edges with the same mark.
+  /// @return the vertex; `none` if p is too near to other vertices for the coordinate lattice
   LocalIndex split(HalfEdge e, geometry::Vec2 p);
 
   LocalIndex vertex_count() const { return static_cast<LocalIndex>(points_.size()); }
@@ -51,18 +53,20 @@ public:
   /// Returns the opposite half-edge; `none` on the border of the box.
   HalfEdge twin(HalfEdge e) const { return twin_[at(e)]; }
   bool is_constrained(HalfEdge e) const { return mark_[at(e)] != no_mark; }
-  /// Returns the mark of an edge in its direction, otherwise a negative number.
+  /// Returns the mark of an edge if its constraint has this direction, otherwise a negative number.
   std::int32_t mark(HalfEdge e) const { return mark_[at(e)] == no_mark ? -1 : mark_[at(e)]; }
-  /// Returns the mark of the constraint on which e lies, in either direction. @pre is_constrained(e)
+  /// Returns the mark of the constraint on which e lies, in either direction.
+  /// @pre is_constrained(e)
   std::int32_t mark_of_edge(HalfEdge e) const { return mark_[at(e)] >= 0 ? mark_[at(e)] : -1 - mark_[at(e)]; }
-  /// Returns the half-edge from a to b, `none` if they are not neighbours. O(degree of a)
+  /// Returns the half-edge from a to b; `none` if they are not neighbours. Cost: O(degree of a).
   HalfEdge find_edge(LocalIndex a, LocalIndex b) const;
-  /// Returns a triangle that contains p, inside or on its rim. O(steps of the walk from the last point) @pre p lies in
-  /// the box
+  /// Returns a triangle that contains p, inside or on its edges. Cost: O(steps of the walk from the last point).
+  /// @pre p lies in the box
   LocalIndex triangle_at(geometry::Vec2 p) const { return triangle(locate(p).edge); }
-  /// Returns a half-edge that leaves v.
+  /// Returns a half-edge that begins at v.
   HalfEdge leaving(LocalIndex v) const { return leaving_[at(v)]; }
-  /// Returns the next half-edge counter-clockwise that leaves the same vertex; `none` behind the border of the box.
+  /// Returns the next half-edge, counter-clockwise, that begins at the same vertex; `none` beyond the border of the
+  /// box.
   HalfEdge around(HalfEdge e) const { return twin(previous(e)); }
 
 private:
@@ -86,7 +90,8 @@ private:
   bool is_strictly_convex(HalfEdge e) const;
   void flip(HalfEdge e);
   bool find_crossed(LocalIndex a, LocalIndex b, std::vector<HalfEdge>& crossed) const;
-  /// Flips edges until a and b share one; those that it makes become doubtful. @return the edge, or `none`
+  /// Flips edges until a and b share an edge; the edges that it makes become doubtful.
+  /// @return the edge from a to b, or `none`
   HalfEdge flip_to_edge(LocalIndex a, LocalIndex b);
   int side(LocalIndex a, LocalIndex b, LocalIndex c) const;
 
@@ -97,7 +102,7 @@ private:
   std::vector<HalfEdge> twin_;     // by half-edge
   std::vector<std::int32_t> mark_; // by half-edge
   std::vector<HalfEdge> doubtful_; // edges that legalize must examine
-  mutable HalfEdge last_ = 0;      // where the last search ended
+  mutable HalfEdge last_ = 0;      // triangle edge at which the last search ended
 };
 
 } // namespace trime::generalise

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Moves vertices of a boundary: apart where a slit is narrower than the resolution, and together where they almost
-// coincide. No triangle is inverted, so no two curves cross.
+// coincide. Because no triangle is inverted, no two curves cross.
 #pragma once
 
 #include "generalise/loop_builder.hpp"
@@ -17,32 +17,32 @@
 
 namespace trime::generalise {
 
-/// The places of all vertices while some of them move.
+/// The positions of all vertices while some of them move.
 class VertexMoves {
 public:
-  /// @param labels 1 for each triangle that is inside; may have changed since the map was made
-  /// @param bounds box whose corners are lattice points; widen() moves no vertex out of it
+  /// @param labels 1 for each triangle that lies inside the shape; may have changed since the map was made
+  /// @param bounds a box with lattice points as corners; widen() moves no vertex out of it
   VertexMoves(const CurveMap& map, const std::vector<char>& labels, const geometry::Lattice& lattice,
               const geometry::Box& bounds);
 
-  /// @brief Moves the sides of narrow parts apart, each by half of the missing width, and less towards the ends of a
-  /// slit. A vertex that would invert a triangle is moved less, or not at all. Parts that are almost wide enough
+  /// @brief Moves the sides of narrow parts apart, each by half of the missing width, and by less towards the ends of a
+  /// slit. A vertex that would invert a triangle is moved by less, or not at all. Parts that are almost wide enough
   /// everywhere are not changed.
-  /// @return how many parts were too narrow. O(triangles) in each of a few rounds
+  /// @return how many parts were too narrow. Cost: O(triangles) in each of a few rounds
   std::int64_t widen(std::vector<NarrowPart> parts);
-  /// Joins neighbouring corners that are nearer to each other than a small share of h, such as those of steps and blunt
+  /// Joins neighbouring corners that are nearer to each other than a small share of h, for example at steps and blunt
   /// tips.
   void merge_close_corners();
 
   bool any() const { return any_; }
   const MovedVertices& places() const { return places_; }
-  /// Returns the largest distance over h that a vertex has moved.
+  /// Returns the largest distance by which a vertex has moved, divided by h.
   double largest_share() const;
 
 private:
   using HalfEdge = Triangulation::HalfEdge;
   double turn_at(HalfEdge e) const;
-  /// Returns true if no other vertex was moved to it.
+  /// Returns true if no other vertex was joined with this one.
   bool is_alone(LocalIndex v) const { return is_root_[at(v)] == 0; }
   bool leaves_a_loop(HalfEdge e) const;
   /// Returns true if the sides of the edge differ.
@@ -64,10 +64,10 @@ private:
   struct Sides {
     struct AtVertex {
       double gap = INFINITY; // distance to the other side
-      geometry::Vec2 away;   // from the middle of the part: sum of normals
+      geometry::Vec2 away;   // direction away from the middle of the part: sum of normals
     };
     std::map<LocalIndex, AtVertex> vertices;
-    geometry::SegmentGrid ends; // points
+    geometry::SegmentGrid ends; // ends of slits, as points
   };
   Sides sides_of(const NarrowPart& part) const;
   double missing_way(const NarrowPart& part, const Sides& sides, LocalIndex v) const;
@@ -85,8 +85,8 @@ private:
   geometry::Lattice lattice_;
   geometry::Box bounds_;
   MovedVertices places_;
-  std::vector<char> is_root_;    // by vertex: of others
-  std::vector<LocalIndex> root_; // by vertex: the one to which it was moved, or itself
+  std::vector<char> is_root_;    // by vertex: whether other vertices were joined with it
+  std::vector<LocalIndex> root_; // by vertex: the vertex with which it was joined, or itself
   bool any_ = false;
 };
 

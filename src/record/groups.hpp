@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes the groups of the metadata of a mesh, for describe() and for the program.
+// Makes the groups of the metadata of a mesh file, for the function describe() and for the program.
 #pragma once
 
 #include "trime/boundary/features.hpp"
@@ -20,7 +20,7 @@ namespace trime::record {
 
 using Attributes = std::vector<io::Attribute>;
 
-/// Returns a column with one value for each element.
+/// Returns a metadata column with one value for each element.
 template <class T, class Element, class Value>
 io::Column column(const std::string& name, const std::vector<Element>& elements, const Value& value) {
   std::vector<T> values;
@@ -29,25 +29,27 @@ io::Column column(const std::string& name, const std::vector<Element>& elements,
   return {name, std::move(values)};
 }
 
-/// Returns name and version of the file format.
+/// Returns the attributes with name and version of the file format.
 Attributes format_attributes();
-/// Returns reference system and periods.
+/// Returns the attributes with the reference system of the coordinates and the periods.
 Attributes place_attributes(const Origin& origin);
-/// Returns counts and hash of the mesh. @param retriangulation counts from 1
+/// Returns the attributes with counts and hash of the mesh.
+/// @param retriangulation number of the triangulation, from 1
 Attributes mesh_attributes(const mesh::DistributedMesh& mesh, int retriangulation);
-/// Returns how the run went, and how the features of the shape were meshed.
+/// Returns the attributes that say how the run went, and how the features of the shape were meshed.
 Attributes result_attributes(const meshing::MeshResult& result);
 
 io::MetadataGroup history_group(const std::vector<sweep::SweepRecord>& history);
 io::MetadataGroup quality_group(const mesh::QualitySummary& quality);
 io::MetadataGroup checks_group(const mesh::Checks& checks);
-/// Returns the table of QualitySummary::worst_triangles.
+/// Returns the table of the worst triangles, QualitySummary::worst_triangles.
 io::MetadataGroup bad_triangles_group(const mesh::QualitySummary& quality);
-/// Returns the tables that explain the numbers in /Mesh/facets: `values` are edge_id, `parts` are part_id.
+/// Returns the tables that explain the numbers in /Mesh/facets: the array `values` contains edge_id, the array `parts`
+/// part_id.
 io::MetadataGroup tags_group(const Origin& origin, const std::vector<polygon::LoopSummary>& loops);
-/// Returns the table of corners where small angles cannot be avoided.
+/// Returns the table of corners at which small angles cannot be avoided.
 io::MetadataGroup sharp_corners_group(const std::vector<boundary::SharpCorner>& corners);
-/// Returns the table of the loops of the shape.
+/// Returns the table of the loops of the given shape.
 io::MetadataGroup rings_group(const Origin& origin, const std::vector<boundary::LoopFate>& loops);
 
 } // namespace trime::record

@@ -55,7 +55,8 @@ def long_sentences(path):
 def file_names():
     """The names, without folders, of all files of the project."""
     folders = ("configs", "include", "jobs", "scripts", "src", "tests")
-    return {path.name for folder in folders for path in (ROOT / folder).rglob("*.*")} | {"config.ini", "disc.ini", "diffusion.cpp"}
+    examples = {"config.ini", "disc.ini", "diffusion.cpp"}
+    return {path.name for folder in folders for path in (ROOT / folder).rglob("*.*")} | examples
 
 
 def missing_files(page):

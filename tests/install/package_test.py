@@ -40,7 +40,8 @@ class Package(unittest.TestCase):
         usr = self.work / "root" / "usr"
         for name in ("bin/trime_mpi", "lib/libtrime.a", "lib/cmake/trime_mpi/trime_mpiConfig.cmake",
                      "include/trime/meshing/mesher.hpp", "share/doc/trime-mpi/copyright",
-                     "share/trime_mpi/jobs/common.sh", "share/trime_mpi/examples/04_solver.cpp", "lib/python3/dist-packages/trime_mpi/__init__.py"):
+                     "share/trime_mpi/jobs/common.sh", "share/trime_mpi/examples/04_solver.cpp",
+                     "lib/python3/dist-packages/trime_mpi/__init__.py"):
             self.assertTrue((usr / name).is_file(), name)
         if "TRIME_BUILD_CHECK:BOOL=OFF" not in (BUILD / "CMakeCache.txt").read_text(encoding="utf-8"):
             self.assertTrue((usr / "bin/trime_check").is_file())

@@ -83,14 +83,14 @@ class Shapes(unittest.TestCase):
                 config = self.config(name, rectangle(0.1, 0.9, 0.1, 0.9), files={f"{name}_fixed.xy": points},
                                      meshing=f"points = 500\nfixed_points = {name}_fixed.xy\nworst_alpha = 1e9\n")
                 text = self.passes(self.mesh(config), config)
-                self.assertEqual("are left out" in re.search(r"(?m)^ok +size .*", text)[0], crowded, text)
+                self.assertEqual("are not counted" in re.search(r"(?m)^ok +size .*", text)[0], crowded, text)
 
     def test_sizes_that_edges_cannot_have(self):
         """A circle far below the size that is asked for, and a size that jumps between the points."""
         config = self.config("small", circle(0.315, 0.454, 0.0343, "a") + "[sizing]\ntype = automatic\n",
                              domain="periodic_y = true\n", meshing="edge_length = 0.39\nmethod = cvd\n")
         text = self.passes(self.mesh(config, (0, 5)))
-        self.assertRegex(text, r"(?m)^ok +size .* where the size is lowered to 0.05 of what was asked are left out")
+        self.assertRegex(text, r"(?m)^ok +size .* because .* the size is lowered to 0.05 of the size asked for")
         config = self.config("jumps", rectangle(0.1, 0.9, 0.1, 0.9) +
                              "[sizing]\ntype = expression\nexpression = abs(sin(50*x))+1e-7\n", meshing="points = 60\n")
         text = self.passes(self.mesh(config, (0, 5)))

@@ -54,7 +54,7 @@ std::string warned(const sites::Stage& stage, bool has_least_size) {
 TEST(SizeWarnings, ShortChordsAreToldWithTheirNumberAndTheWorstPlace) {
   const std::string text = warned(stage_with({0.001, 0.0005, 0.00075}), false);
   EXPECT_NE(text.find("3 of 259 boundary edges are far shorter"), std::string::npos) << text;
-  EXPECT_NE(text.find("the worst, 0.0005 long where the size is 0.0125, is at (0.50125, 0.1)"), std::string::npos)
+  EXPECT_NE(text.find("the worst edge is 0.0005 long where the size is 0.0125, at (0.50125, 0.1)"), std::string::npos)
       << text;
   EXPECT_EQ(text.find("min_size"), std::string::npos) << text;
 }
