@@ -229,6 +229,7 @@ DAMAGES = {
     "a check failed": (lambda f: change(f, "trime_mpi/checks/passed", row(f, "area"), 0), ["stored_checks"]),
     "marked as complete or not": (lambda f: f["trime_mpi"].attrs.modify("complete", 0), ["stored_checks"]),
     "quality changed": (lambda f: f["trime_mpi/quality"].attrs.modify("alpha_mean", 1.01), ["quality"]),
+    "obtuse triangles changed": (lambda f: f["trime_mpi/quality"].attrs.modify("obtuse_triangles", 3), ["quality"]),
     "a histogram changed": (lambda f: change(f, "trime_mpi/quality/alpha_histogram", 0, 1), ["quality"]),
     "a fixed point lost": (lose_fixed_point, ["fixed_points"]),
     "a corner lost": (lose_corner, ["stored_checks"]),

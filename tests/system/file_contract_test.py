@@ -142,6 +142,12 @@ class FileContract(unittest.TestCase):
         np.testing.assert_allclose(self.file["VTKHDF/CellData/alpha"][:], alpha, rtol=1e-5)
         lengths = np.sort(np.stack([a, b, c]), axis=0)
         np.testing.assert_allclose(self.file["VTKHDF/CellData/beta"][:], lengths[2] / lengths[0], rtol=1e-5)
+        cosines = [((v - u) * (w - u)).sum(axis=1) / (np.hypot(*(v - u).T) * np.hypot(*(w - u).T))
+                   for u, v, w in ((p, q, r), (q, r, p), (r, p, q))]
+        least, rounding = np.min(cosines, axis=0), 1e-12
+        found = int(self.file["trime_mpi/quality"].attrs["obtuse_triangles"])
+        self.assertGreaterEqual(found, (least < -rounding).sum())
+        self.assertLessEqual(found, (least < rounding).sum())
 
     def test_provenance(self):
         about = self.file["trime_mpi"]
