@@ -410,12 +410,16 @@ std::unique_ptr<Generalised> generalise(const Boundary& boundary, const sizing::
   Corners corners;
   const auto latest = [&]() -> const Boundary& { return result ? result->boundary : boundary; };
   const auto pass = [&](int most) { // what was moved apart may leave others narrow
-    follow_with(with_thin_runs(latest(), size, lattice, held));
+    bool thins = true;              // until narrow parts have changed
     for (int k = 0; k < most; ++k) {
+      const bool is_thinner = thins && follow_with(with_thin_runs(latest(), size, lattice, held));
+      if (k > 0 && thins && !is_thinner)
+        break; // the pass would see the same curves
       const bool any = follow_with(pass_over(latest(), size, lattice, choice, held, corners));
       corners.is_first_pass = false;
-      if (!any)
+      if (!any && !is_thinner)
         break;
+      thins = !any;
     }
   };
   pass(GeneraliseRules::most_passes);

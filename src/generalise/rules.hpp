@@ -99,8 +99,10 @@ struct GeneraliseRules {
   static constexpr double flow_spacing = 0.12;
   /// [flow_spacing] Nodes that have come nearer to each other than this are joined. Not measured.
   static constexpr double flow_join = 0.4;
-  /// [h] Nodes that have moved go if the curve without them lies nearer to them than this. Not measured.
-  static constexpr double flow_flat = 0.003;
+  /// [h] Nodes that have moved go if the curve without them lies nearer to them than this. Measured on 21 meshes of
+  /// coasts: the mean of the largest alphas is 1.226; with 0.003 it is 1.243, at the same time, and without it 1.236,
+  /// in 1.2 times the time.
+  static constexpr double flow_flat = 0.001;
   /// [h] Longest edge that such nodes leave. Not measured.
   static constexpr double flow_longest = 0.5;
   /// [h] Shorter distances between nodes count as this long, so that rates stay finite. Not measured.

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 
 namespace trime::generalise {
@@ -85,6 +86,22 @@ TEST(CurveFlow, SmoothsTeethBelowTheSizeAndKeepsTheRestBitForBit) {
   for (const Vec2 corner : {Vec2{0.1, 0.1}, Vec2{0.9, 0.1}, Vec2{0.9, 0.9}, Vec2{0.1, 0.9}})
     EXPECT_TRUE(std::any_of(loop.pieces.begin(), loop.pieces.end(),
                             [&](const Piece& piece) { return piece.start == unit_lattice().snap(corner); }));
+}
+
+TEST(CurveFlow, LeavesFewNodesWhereTheResultIsNearlyStraight) {
+  const double h = 0.05, from = 0.35, to = 0.65;
+  const auto made = smooth(saw(0.005, 0.01), h);
+  ASSERT_TRUE(made);
+  const std::vector<Piece>& pieces = made->boundary.loops[0].pieces;
+  const auto nodes = std::count_if(pieces.begin(), pieces.end(), [&](const Piece& piece) {
+    return piece.start.x > from && piece.start.x < to && piece.start.y < 0.5;
+  });
+  EXPECT_LT(static_cast<double>(nodes), 0.75 * (to - from) / (GeneraliseRules::flow_spacing * h));
+  double longest = 0;
+  for (const Piece& piece : pieces)
+    if (piece.start.x > from && piece.end.x < to && piece.start.y < 0.5)
+      longest = std::fmax(longest, piece.length());
+  EXPECT_LE(longest, (GeneraliseRules::flow_longest + 0.1) * h);
 }
 
 TEST(CurveFlow, KeepsTheAreaOfEachLoop) {
