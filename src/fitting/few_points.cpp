@@ -19,8 +19,9 @@ constexpr double many_points = 64;
 // points, which is an error.
 constexpr double least_of_jump = 0.5;
 
-// [area of the shape] If the simplified curves enclose more, the triangles are far too large for the shape.
-constexpr double largest_growth = 4;
+// [area of the shape] If the simplified curves enclose more, the mesh would not be of this shape at all. Wedges and
+// walls are widened up to some thousand times their area.
+constexpr double largest_growth = 1e4;
 
 // [width of the shape] Triangles of this size are not widened.
 constexpr double fitting_size = 2;

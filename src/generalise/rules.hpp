@@ -79,8 +79,8 @@ struct GeneraliseRules {
   /// touch jumps so much that their boundary is simplified for triangles twice as large.
   static constexpr double least_body = 1;
   /// [h squared] A body with a smaller area does not stay alone where the parts that join it are cut: that would leave
-  /// about a dozen triangles. Not measured.
-  static constexpr double least_cut_off = 5;
+  /// half a dozen triangles. Not measured.
+  static constexpr double least_cut_off = 2.5;
   /// [h] Narrow parts that join or separate are widened to this, if they are narrower: a row of triangles whose size is
   /// lowered to that. Measured: with 0.25, 56 islands that nearly touch have a boundary for triangles 1.8 times as
   /// large.

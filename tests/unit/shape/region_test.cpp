@@ -27,8 +27,8 @@ TEST(Region, ValuesOfAllCombinations) {
 }
 
 TEST(Region, KnowsWhatIsOnlySubtracted) {
-  const std::vector<std::string> names{"a", "b", "c"};
-  const Region region = Region::parse("union(difference(a, b), difference(c, difference(b, c)))", names);
+  const std::vector<std::string> letters{"a", "b", "c"};
+  const Region region = Region::parse("union(difference(a, b), difference(c, difference(b, c)))", letters);
   EXPECT_FALSE(region.subtracts(0));
   EXPECT_TRUE(region.subtracts(1));
   EXPECT_FALSE(region.subtracts(2)) << "it is also added";
