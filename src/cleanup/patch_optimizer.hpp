@@ -26,9 +26,9 @@ public:
   std::vector<SiteVerdict> verdicts(const Patch& now, double bad_alpha);
 
 private:
-  struct Badness {           // of a vertex
-    double alpha = 0;        // of its worst triangle if that is bad, otherwise 0
-    std::int64_t obtuse = 0; // 1 if one of its triangles is obtuse
+  struct Badness {           // how bad the triangles around a vertex are
+    double alpha = 0;        // the largest alpha of these triangles if it is bad, otherwise 0
+    std::int64_t obtuse = 0; // 1 if one of these triangles is obtuse
     friend bool operator==(const Badness&, const Badness&) = default;
   };
   static void find_worst(const Patch& patch, double bad_alpha, std::vector<Badness>& worst);

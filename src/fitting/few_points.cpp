@@ -19,8 +19,8 @@ constexpr double many_points = 64;
 // points, which is an error.
 constexpr double least_of_jump = 0.5;
 
-// [area of the shape] If the simplified curves enclose more, the mesh would not be of this shape at all. Wedges and
-// walls are widened up to some thousand times their area.
+// [area of the shape] If the simplified curves enclose a larger area, the mesh would not be of this shape at all.
+// Wedges and walls are widened up to about 2000 times their area.
 constexpr double largest_growth = 1e4;
 
 // [width of the shape] Triangles of this size are not widened.
