@@ -8,11 +8,14 @@
 #include "trime/geometry/piece_tree.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace trime::boundary {
 namespace {
@@ -69,15 +72,15 @@ std::map<std::int32_t, MeshLoop> mesh_loops(const Boundary& meshed, const Bounda
 std::string difference_text(const LoopFate& fate) {
   const double grown = fate.mesh_area / fate.area - 1, tip = fate.reach / fate.extent,
                away = fate.deviation * fate.mesh_length / (2 * fate.mesh_area);
-  std::string text;
+  std::vector<std::string> parts;
   if (std::fabs(grown) > BoundaryRules::warned_area)
-    text = fmt::format("has {:.3g} % {} area in the mesh", 100 * std::fabs(grown), grown > 0 ? "more" : "less");
+    parts.push_back(
+        fmt::format("has {:.3g} % {} area in the mesh", 100 * std::fabs(grown), grown > 0 ? "more" : "less"));
   if (tip > BoundaryRules::warned_reach)
-    text += fmt::format("{}lost a tip that is {:.3g} % of its extent long", text.empty() ? "" : ", ", 100 * tip);
+    parts.push_back(fmt::format("lost a tip that is {:.3g} % of its extent long", 100 * tip));
   if (away > BoundaryRules::warned_deviation)
-    text +=
-        fmt::format("{}is up to {:.3g} % of its mean width away from the mesh", text.empty() ? "" : ", ", 100 * away);
-  return text;
+    parts.push_back(fmt::format("is up to {:.3g} % of its mean width away from the mesh", 100 * away));
+  return fmt::format("{}", fmt::join(parts, " and "));
 }
 
 } // namespace

@@ -67,9 +67,9 @@ void warn_of_fine_features(const Stage& stage, bool has_least_size, Log& log) {
   }
   const double share = has_least_size ? LayoutRules::warned_share_of_chords : 0;
   if (static_cast<double>(count) > share * static_cast<double>(sites.size()))
-    log.warning("{} of {} boundary edges are far shorter than the size asked for there: expect small angles next to "
+    log.warning("{} of {} boundary edges {} far shorter than the size asked for there: expect small angles next to "
                 "them; the worst edge is {:.3g} long where the size is {:.3g}, at {}{}",
-                count, sites.size(), length, size, Place(place, 6),
+                count, sites.size(), count == 1 ? "is" : "are", length, size, Place(place, 6),
                 has_least_size ? "; a smaller min_size would help" : "");
 }
 
