@@ -161,7 +161,7 @@ PlacedText body_warning(const FeatureReport& report, const std::vector<std::stri
   text += ". Smaller triangles there follow the shape better: more points, or a size that is smaller there "
           "(sizing.type = automatic or expression)";
   if (occasion == Occasion::run)
-    text += ". The table /trime_mpi/rings in the file has area and mesh_area of each loop";
+    text += ". The table /trime_mpi/rings in the mesh file has area and mesh_area of each loop";
   return PlacedText(text);
 }
 

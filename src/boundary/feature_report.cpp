@@ -256,7 +256,7 @@ PlacedText loss_warning(const FeatureReport& report, Occasion occasion) {
     text += "meshing.keep_features = true keeps everything, however many points that takes";
   }
   if (occasion == Occasion::run)
-    text += ". The table /trime_mpi/rings in the file says what became of each loop";
+    text += ". The table /trime_mpi/rings in the mesh file says what became of each loop";
   return PlacedText(text);
 }
 

@@ -23,8 +23,9 @@ struct FeatureTolerance {
 };
 
 /// @brief Returns both ends, the junctions between t0 and t1, and places in between that are at most a quarter of the
-/// local size apart. A junction is left out if it lies within a small part of the tolerance of the chord between other
-/// junctions (Douglas and Peucker 1973). Cost: O(n log n) for n junctions, at most O(64 n).
+/// local size apart. A junction is a place where two pieces of the boundary meet. Junctions between two kept ones are
+/// left out if their distance to the chord between these two is at most BoundaryRules::place_thinning times the
+/// tolerance (Douglas and Peucker 1973). Cost: O(n log n) for n junctions, at most O(64 n).
 std::vector<SitePlace> places_between(const LoopMetric& metric, double t0, double t1, const geometry::Lattice& lattice,
                                       const FeatureTolerance& tolerance);
 

@@ -40,9 +40,9 @@ public:
     return stands_for_curve(own, patch.boundary[at(own.next)], patch.chord(v), patch.size[at(v)]);
   }
 
-  /// @brief Returns whether each boundary edge that has changed is an edge of the triangulation, may replace its curve
-  /// and has an empty closed disc. Also checks that no vertex has moved into the disc of another boundary edge, and
-  /// that no inner vertex lies outside the shape.
+  /// @brief Returns whether each boundary edge that has changed is an edge of the triangulation, may replace the curve
+  /// between its ends, and has no other vertex in its closed diametral disc. Also checks that no vertex has moved into
+  /// the diametral disc of an unchanged boundary edge, and that no inner vertex lies outside the shape.
   bool hold(const Patch& patch) const;
 
 private:

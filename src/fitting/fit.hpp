@@ -37,8 +37,9 @@ public:
   bool needs_lowering(const sites::Stage& laid) const { return fitting::needs_lowering(context_, laid); }
   /// Lets the boundary lower a uniform size at some places from now on. Local. @pre needs_lowering() has returned true
   void lower_uniform() { context_.lowers_uniform = true; }
-  /// From now on, components of the shape that are narrow everywhere are cut to pieces, so that fewer points suffice;
-  /// and the boundary no longer lowers a uniform size. Local. @pre a search has returned TooFewPoints
+  /// From now on, components of the shape that are narrow everywhere are cut to pieces instead of widened, so that
+  /// the mesh needs fewer points; and the boundary no longer lowers a uniform size. Local. @pre a search has returned
+  /// TooFewPoints
   void cut_thin_components();
 
   /// Lays out a stage without inner sites for about `expected` points, at the size that was found times `coarsening`.

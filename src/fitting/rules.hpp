@@ -8,7 +8,7 @@
 
 namespace trime::fitting {
 
-/// The numbers of the layout of a stage, of its simplified boundary, and of the outlook.
+/// The numbers for the layout of a stage, for the simplification of its boundary, and for the estimate of --dry-run.
 struct LayoutRules {
   /// [1] Trials of the size begin with a boundary from which small features were removed, for a size that is smaller
   /// than the first one by this factor. Not measured.
@@ -48,11 +48,12 @@ struct LayoutRules {
   /// [1] Until nothing is simplified, the estimate of --dry-run tries sizes that are smaller by this factor each time.
   /// Not measured.
   static constexpr double outlook_step = 10;
-  /// [points] The outlook advises no more points than this, since it tries what it advises. Not measured.
+  /// [points] Largest number of points that --dry-run tries before it advises this number. Not measured.
   static constexpr double advice_points = 1e6;
-  /// [trials] Numbers of points that it tries at most. Not measured.
+  /// [trials] Largest number of trials before --dry-run advises a number of points. Not measured.
   static constexpr int advice_trials = 8;
-  /// [1] The next number that it tries is larger by this factor. Not measured.
+  /// [1] If a mesh with the tried number of points does not keep everything, the next number is larger by this factor.
+  /// Not measured.
   static constexpr double advice_step = 1.3;
   /// [samples] Number along a side of the box around the shape. The slope of the size is measured between two samples.
   /// Not measured.

@@ -90,8 +90,8 @@ private:
   int state_at(geometry::Vec2 p) const;
   /// Returns a distance from p within which no chord lies.
   double clear_way(geometry::Vec2 p) const;
-  /// Returns the number (see disc()) of the closed diametral circle in which p lies deepest, the lowest number of
-  /// equally deep ones; -1 if p lies in none of them.
+  /// Returns the number (see disc()) of the chord in whose closed diametral circle p lies deepest, relative to the
+  /// radius. If p lies equally deep in several circles, the lowest number counts. Returns -1 if p lies in none of them.
   LocalIndex deepest_disc(geometry::Vec2 p) const;
 
   geometry::Periods periods_;

@@ -30,7 +30,8 @@ void check_periodic_reach(const Part& part, const Box& box, const Frame& frame) 
     if (period > 0 && (from < least || to > most))
       throw GeometryError(fmt::format(
           "part '{}' reaches from {} = {:.9g} to {:.9g}: expected it between {:.9g} and {:.9g}, at most one period "
-          "beyond the sides of the periodic container; move it by a period, or intersect two parts",
+          "beyond the sides of the periodic container; move the part by a period, or replace it by several parts that "
+          "reach less far",
           part.name(), axis, from, to, least, most));
   };
   check('x', periods.x, box.min.x, box.max.x, low.x, high.x);

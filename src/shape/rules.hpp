@@ -37,8 +37,9 @@ struct ShapeRules {
   static constexpr LocalIndex meeting_chunk = 2048;
   /// [meetings] The search in a chunk ends after this number of meetings, which bounds the memory. Not measured.
   static constexpr std::size_t most_meetings = 8192;
-  /// [pairs] If the bins of the grid hold more pairs per segment than this, a search tree is built, which costs about
-  /// as much. Measured: the bins search a ring of 10^6 segments in a quarter of the time of the tree.
+  /// [pairs] If the bins of the grid hold more pairs of segments than this per segment, a search tree finds the
+  /// meetings, because a test of all these pairs would cost about as much as the tree. Measured on a ring of 10^6
+  /// segments: the search in the bins takes a quarter of the time that the search by the tree takes.
   static constexpr std::int64_t enough_pairs = 32;
 };
 

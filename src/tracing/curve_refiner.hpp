@@ -19,7 +19,7 @@ struct TraceTolerances {
   double straight = 1e-12 * side;   ///< a deviation up to this counts as zero
   double shortest = 0x1p-22 * side; ///< chords below this length are not halved
   double corner = 0x1p-24 * side;   ///< distance from a corner at which its two sides are examined last
-  double zero = 0x1p-50 * side;     ///< tolerance for the position of a zero on a line
+  double zero = 0x1p-50 * side;     ///< largest error of the place where the level function is zero on a segment
 };
 
 struct CurveVertex {

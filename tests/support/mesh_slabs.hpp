@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes a small mesh and distributes it over any number of ranks, so that some ranks hold nothing.
+// Makes a small mesh and distributes it unevenly over any number of ranks; about a third of the ranks get nothing.
 #pragma once
 
 #include "core/random.hpp"
