@@ -156,8 +156,10 @@ private:
     if (left_out > 0)
       report_.skip(
           "uncovered_loops",
-          fmt::format("{} places on curves have no facet nearby, because {} loops there were simplified or dropped",
-                      left_out, changes_.loops.size()));
+          fmt::format(
+              "{} places on curves have no facet nearby, because the shape was simplified there; number of loops "
+              "that were simplified or dropped: {}",
+              left_out, changes_.loops.size()));
   }
 
   /// The box of the parts of the region within the container.

@@ -3,8 +3,11 @@ set(prefix "${WORK}/prefix")
 file(REMOVE_RECURSE "${prefix}" "${WORK}/build" "${WORK}/examples")
 file(REMOVE_RECURSE "${WORK}/ten_lines" "${WORK}/bare" "${WORK}/diffusion")
 file(MAKE_DIRECTORY "${WORK}/bare")
+# Sets `output`: what the command prints, then its warnings, since mpirun does not keep the order of the two.
 function(step)
-  execute_process(COMMAND ${ARGN} WORKING_DIRECTORY "${WORK}/bare" RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  execute_process(COMMAND ${ARGN} WORKING_DIRECTORY "${WORK}/bare"
+                  RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE errors)
+  string(APPEND output "${errors}")
   if(NOT status EQUAL 0)
     message(FATAL_ERROR "failed (${status}): ${ARGN}\n${output}")
   endif()

@@ -43,7 +43,9 @@ TEST(CleanupLimits, EditsBeyondTheLimitAreTakenBack) {
   EXPECT_TRUE(results[0].edits.empty());
   EXPECT_TRUE(results[0].put_off);
   EXPECT_EQ(results[1].edits.size(), 3u);
-  EXPECT_EQ(limits.budget(last_stage, 1.1).may_insert, 2);
+  EXPECT_EQ(limits.budget(last_stage + CleanupRules::obtuse_stages, 1.1).may_insert, 2);
+  // The rest is reserved for the stages against obtuse triangles.
+  EXPECT_EQ(limits.budget(last_stage, 1.1).may_insert, 0);
 }
 
 } // namespace

@@ -202,7 +202,7 @@ TEST(FacadeErrors, Options) {
               error_of<ConfigError>(mesh_with({.points = points})));
     MeshOptions lossy{.points = 100};
     lossy.features.max_loss = world.is_root() ? 0.1 : 0.2;
-    expect_in("max_loss 0.1', another one", error_of<ConfigError>(mesh_with(lossy)));
+    expect_in("max_loss 0.1', another rank", error_of<ConfigError>(mesh_with(lossy)));
   }
   MeshOptions beyond{.points = 100};
   beyond.features.max_loss = 1.5;
