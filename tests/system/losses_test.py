@@ -16,7 +16,7 @@ from trime_run import Workspace, run
 CONFIG = ("[shape]\ngeometry = sea\n[shape.sea]\ntype = contour\nfile = sea.xy\nnormalize = true\n"
           "[meshing]\npoints = 800\nworst_alpha = 1e300\n")
 LOST = {"dropped": "dropped", "hole filled": "filled", "holes filled": "filled", "merged with others": "merged"}
-KEPT = "nothing of the shape is simplified"
+KEPT = "no part of the shape is simplified"
 
 
 def counts_of(text):
