@@ -7,7 +7,7 @@
 
 namespace trime::app {
 
-/// What the program is asked to do.
+/// The task that the command line gives to the program.
 enum class Action { mesh, validate, dry_run, print_config, help, help_config, version, convert, info };
 
 struct CommandLine {

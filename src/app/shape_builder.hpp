@@ -21,8 +21,8 @@ namespace trime::app {
 /// @note Collective.
 std::string read_shared(const std::string& path, const comm::Communicator& comm);
 
-/// What the caller needs: only the boundary, as a run does, or the whole shape with its parts, which takes as much
-/// memory again.
+/// Says which part of the result the caller needs: only the boundary, as a run does, or the whole shape with its parts,
+/// which takes as much memory again.
 enum class ShapeUse { boundary, queries };
 
 /// The shape, and further data from its files.

@@ -15,7 +15,7 @@ struct ChangedLoop {
   double length = 0;
 };
 
-/// What simplification changed in the shape before it was meshed.
+/// Lists the changes that the simplification made to the shape before meshing.
 struct Changes {
   bool are_known = true; ///< false if the file is an intermediate step of a run, which does not store the changes
   std::vector<ChangedLoop> loops;

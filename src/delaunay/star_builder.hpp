@@ -16,7 +16,7 @@
 
 namespace trime::delaunay {
 
-/// What a pass does with the star of a site: empty its ring of neighbours (none), compute it, or leave it unchanged.
+/// Says how a pass treats the star of a site: empty its ring of neighbours (none), compute it, or leave it unchanged.
 enum class StarWish : std::uint8_t { none, compute, leave };
 
 /// Counts of the stars in one pass.

@@ -287,7 +287,7 @@ bool have_same_pieces(const Boundary& a, const Boundary& b) {
   return polygon::piece_count(a) == polygon::piece_count(b) && ends(a) == ends(b);
 }
 
-/// What comes of the narrow parts in a pass.
+/// Lists how a pass treats the narrow parts that it found.
 struct Treated {
   std::vector<char> labels;      ///< empty if nothing good does
   std::vector<NarrowPart> apart; ///< their sides are to be moved apart

@@ -29,7 +29,8 @@ struct SavedRun {
   sites::SiteLoader load;
 };
 
-/// What a rank requests at the end of a sweep. If ranks have different requests, the one latest in this list counts.
+/// Names the request of a rank at the end of a sweep. If ranks have different requests, the one latest in this list
+/// counts.
 enum class CheckpointWish : int {
   none,
   write, ///< write a checkpoint, then continue

@@ -10,7 +10,7 @@
 
 namespace trime::sweep {
 
-/// What a sweep does with a site: moves it by the update rule, pushes it away from the boundary, or deletes it.
+/// Says how a sweep treats a site: it moves it by the update rule, pushes it away from the boundary, or deletes it.
 enum class SiteOutcome : std::uint8_t { moved, pushed, deleted };
 
 /// @brief Collects the next places of the sites that the vector kernel has not moved, and sums all moves tile by tile.
