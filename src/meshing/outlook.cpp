@@ -65,7 +65,9 @@ bool keeps_with(const RunContext& run, const LayoutContext& layout, double point
                             layout.log,  layout.timers, layout.fixed};
   try {
     return LastStage(run, trial).keeps_all();
-  } catch (const Error&) { // too few points: all ranks throw it together
+  } catch (const ConfigError&) { // too few points: all ranks throw it together
+    return false;
+  } catch (const GeometryError&) { // no mesh at this size: all ranks throw it together
     return false;
   }
 }
