@@ -191,7 +191,8 @@ void read_domain(const Settings& settings, RunOptions& options, Diagnostics& pro
     mesh.cells_y = static_cast<int>(*cells);
 }
 
-/// Exactly one of points and edge_length, and no edge length that asks for an absurd number of points.
+/// Exactly one of points and edge_length (with absolute sizes only the first, or none), and no edge length that asks
+/// for an absurd number of points.
 void read_resolution(const Settings& settings, const geometry::Box& container, meshing::MeshOptions& mesh,
                      Diagnostics& problems) {
   mesh.points = settings.optional_integer("meshing", "points");
@@ -201,7 +202,11 @@ void read_resolution(const Settings& settings, const geometry::Box& container, m
     problems.add(settings.later_line("meshing", "points", "edge_length"),
                  "both 'points' and 'edge_length' are set in [meshing]; keep one of them (on the command line, "
                  "'meshing.points=' removes the value of the file)");
-  if (!points && !length)
+  if (mesh.absolute_sizes && length)
+    problems.add(settings.line("meshing", "edge_length"),
+                 "'edge_length' in [meshing] has no meaning with 'scale = absolute' in [sizing], because the sizes are "
+                 "lengths already; leave it out, or set 'scale = fit'");
+  if (!points && !length && !mesh.absolute_sizes)
     problems.add(whole_file, "set 'points' or 'edge_length' in [meshing], for example 'points = 5000'");
   const double area = container.width() * container.height();
   const double expected = mesh.edge_length ? area / (row_height * *mesh.edge_length * *mesh.edge_length) : 0;

@@ -146,11 +146,20 @@ const Option table[] = {
      .meaning =
          "how the size of the triangles varies; `automatic` makes them small where the shape is narrow or curved"},
     {.section = "sizing",
+     .key = "scale",
+     .kind = OptionKind::word,
+     .fallback = "fit",
+     .choices = "fit absolute",
+     .meaning = "`fit`: only ratios of sizes count, and a factor makes the number of `points` or the mean "
+                "`edge_length`; `absolute`: sizes are lengths, and `points` is a limit or missing"},
+    {.section = "sizing",
      .key = "gradation",
-     .fallback = "0.1",
+     .fallback = "auto",
+     .choices = "auto none",
      .range = {0, 2},
-     .meaning = "largest gradient of the automatic size (K in TriMe++); 0: uniform; triangles can hardly follow "
-                "gradients above 0.5"},
+     .meaning = "largest growth of the size per length in the mesh, around narrow places, too (K in TriMe++); auto: "
+                "0.1 for the type automatic, 0.3 for a formula, 0.2 around narrow places; none: a formula is used as "
+                "it is; 0: the automatic size is uniform; triangles can hardly follow more than 0.5"},
     {.section = "sizing",
      .key = "expression",
      .kind = OptionKind::text,

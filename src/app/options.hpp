@@ -37,7 +37,7 @@ struct PartOptions {
 /// The section [sizing] of a config. The absolute bounds of the size are in meshing::MeshOptions.
 struct SizingOptions {
   std::string type = "uniform"; ///< uniform, automatic or expression
-  double gradation = 0.1;       ///< for the type automatic; 0 makes the size uniform
+  double gradation = 0.1;       ///< K of the type automatic; 0 makes the size uniform
   std::string expression;       ///< formula of the size, already checked, if the type is expression
   std::string expression_place; ///< origin of the formula for messages: "config.ini:17: 'expression' in [sizing]"
 };

@@ -50,12 +50,6 @@ std::string program_name() {
   return fmt::format("trime_mpi {} (commit {})", build.version, build.git_commit);
 }
 
-/// Points that the options ask for.
-double expected_points(const RunOptions& options, const geometry::Boundary& boundary) {
-  return options.mesh.points ? static_cast<double>(*options.mesh.points)
-                             : fitting::points_of_length(boundary, options.mesh.edge_length.value_or(1));
-}
-
 /// Each rank takes about an equal share of the points.
 void check_share(double points, int ranks) {
   constexpr auto most = static_cast<double>(sites::SiteRules::most_owned);
@@ -82,9 +76,8 @@ MemoryEstimate estimate_memory(const RunOptions& options, double points, const g
 }
 
 /// Returns the output of --validate and --dry-run, in place of a mesh.
-std::string estimate(const RunOptions& options, const geometry::Boundary& boundary, const Placement& placement,
-                     bool with_decomposition) {
-  const double points = expected_points(options, boundary);
+std::string estimate(const RunOptions& options, double points, const geometry::Boundary& boundary,
+                     const Placement& placement, bool with_decomposition) {
   std::string text = fmt::format(
       "shape: area {:.6g}, boundary length {:.6g}, {} component{}, {} hole{}\n", boundary.area, boundary.length(),
       boundary.components(), boundary.components() == 1 ? "" : "s", boundary.holes(), boundary.holes() == 1 ? "" : "s");
@@ -117,7 +110,11 @@ void print_outlook(const meshing::Outlook& outlook, const std::vector<std::strin
     log.summary("no part of the shape is simplified at this size");
     return;
   }
-  if (outlook.is_tried)
+  if (outlook.keeping_factor > 0)
+    log.summary("sizes that are {:.3g} times smaller keep everything", 1 / outlook.keeping_factor);
+  else if (outlook.keeping_points == 0)
+    log.summary("no size was found that keeps everything");
+  else if (outlook.is_tried)
     log.summary("{:.0f} points keep everything; that was tried", outlook.keeping_points);
   else
     log.summary("more than {:.0f} points are needed to keep everything; no number of points was found that does",
@@ -219,13 +216,13 @@ public:
         keeper_({job.comm, checkpoint_options(job), job.signals, job.timers, job.log}, job.options.checkpoint,
                 job.line.time_limit, {program_name(), job.options.resolved}),
         saved_(keeper_.find(job.line.restart)), // before directories are made
-        series_(series_options(job, input_), job.comm), points_(expected_points(job.options, boundary())),
-        mesh_(placed_options(job.options, input_, job.comm)) {
-    check_output();
+        series_(series_options(job, input_), job.comm), mesh_(placed_options(job.options, input_, job.comm)) {
     size_ = [&] {
       const auto timing = job.timers.scope("size field");
       return build_size(job.options, input_.domain(), job.comm);
     }();
+    points_ = meshing::Mesher(job.comm, input_.domain(), *size_.field, mesh_, job.log, job.timers).expected_points();
+    check_output();
     if (placement_.threads != placement_.setup_threads)
       use_threads(placement_, placement_.threads);
   }
@@ -247,9 +244,9 @@ private:
   CheckpointKeeper keeper_;
   const std::optional<meshing::SavedRun> saved_; // where the run goes on
   formats::MeshSeries series_;
-  const double points_;             // about as many as the mesh will have
   const meshing::MeshOptions mesh_; // with places in the container
   BuiltSize size_;
+  double points_ = 0; // about as many as the mesh will have
 };
 
 void MeshRun::check_output() {
@@ -263,7 +260,7 @@ void MeshRun::check_output() {
 ExitCode MeshRun::preview() {
   const bool is_dry_run = job_.line.action == Action::dry_run;
   check_fixed_points(*input_.shape, job_.log);
-  job_.log.summary("{}", estimate(job_.options, boundary(), placement_, is_dry_run));
+  job_.log.summary("{}", estimate(job_.options, points_, boundary(), placement_, is_dry_run));
   check_share(points_, placement_.ranks);
   Log quiet(LogLevel::error, job_.comm.is_root()); // its warnings were printed before
   const meshing::Mesher mesher(job_.comm, input_.domain(), *size_.field, mesh_, quiet, job_.timers);

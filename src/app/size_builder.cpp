@@ -16,7 +16,9 @@ BuiltSize automatic_size(const RunOptions& options, const geometry::Domain& doma
   const geometry::Boundary& boundary = domain.boundary();
   sizing::AutomaticSizeOptions automatic;
   automatic.gradation = options.sizing.gradation;
-  automatic.feature_floor = sizing::feature_floor(options.mesh.points, options.mesh.edge_length, boundary.area);
+  automatic.feature_floor = options.mesh.absolute_sizes
+                                ? options.mesh.min_size.value_or(0)
+                                : sizing::feature_floor(options.mesh.points, options.mesh.edge_length, boundary.area);
   automatic.container = domain.frame().container();
   automatic.period_x = boundary.periods.x;
   automatic.period_y = boundary.periods.y;
@@ -74,9 +76,12 @@ BuiltSize build_size(const RunOptions& options, const geometry::Domain& domain, 
   } else if (options.sizing.type == "expression") {
     size = expression_size(options, domain); // the same on all ranks, errors too
   } else {
-    size.field = std::make_unique<const sizing::UniformSize>();
+    size.field = std::make_unique<const sizing::UniformSize>(
+        options.mesh.absolute_sizes ? options.mesh.max_size.value_or(1) : 1.0);
     size.description = "uniform";
   }
+  if (options.mesh.absolute_sizes)
+    size.description += ", absolute";
   if (options.mesh.min_size)
     size.description += fmt::format(", at least {:.6g}", *options.mesh.min_size);
   if (options.mesh.max_size)

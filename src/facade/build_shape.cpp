@@ -196,11 +196,13 @@ std::shared_ptr<const sizing::SizeField> build_size(const Size& size, const geom
   if (size.function())
     return std::make_shared<const CalledSize>(size.function());
   if (!size.is_automatic())
-    return std::make_shared<const sizing::UniformSize>();
+    return std::make_shared<const sizing::UniformSize>(options.absolute_sizes ? options.max_size.value_or(1) : 1.0);
   const geometry::Boundary& boundary = domain.boundary();
   sizing::AutomaticSizeOptions automatic;
   automatic.gradation = size.gradation();
-  automatic.feature_floor = sizing::feature_floor(options.points, options.edge_length, boundary.area);
+  automatic.feature_floor = options.absolute_sizes
+                                ? options.min_size.value_or(0)
+                                : sizing::feature_floor(options.points, options.edge_length, boundary.area);
   automatic.container = domain.frame().container();
   automatic.period_x = boundary.periods.x;
   automatic.period_y = boundary.periods.y;

@@ -27,6 +27,7 @@ std::vector<std::string> items_of(const Shape& shape, const MeshOptions& options
       "shape " + shape.text(),
       "points " + text_of(options.points),
       "edge_length " + text_of(options.edge_length),
+      fmt::format("absolute_sizes {}, gradation {}", options.absolute_sizes, text_of(options.gradation)),
       fmt::format("method {}", static_cast<int>(options.method)),
       "min_size " + text_of(options.min_size),
       "max_size " + text_of(options.max_size),
@@ -71,7 +72,10 @@ void check_positive(const std::optional<double>& value, const char* name) {
 }
 
 void check_values(const MeshOptions& options) {
-  if (options.points.has_value() == options.edge_length.has_value())
+  if (options.absolute_sizes && options.edge_length)
+    throw ConfigError("MeshOptions::edge_length: expected no edge length with absolute_sizes, because the size gives "
+                      "lengths already");
+  if (options.points.has_value() == options.edge_length.has_value() && !options.absolute_sizes)
     throw ConfigError(fmt::format("MeshOptions: expected one of points and edge_length, found {}; for example "
                                   "{{.points = 5000}}",
                                   options.points ? "both" : "none"));
@@ -80,6 +84,8 @@ void check_values(const MeshOptions& options) {
   check_positive(options.edge_length, "edge_length");
   check_positive(options.min_size, "min_size");
   check_positive(options.max_size, "max_size");
+  if (options.gradation && !(*options.gradation > 0))
+    throw ConfigError(fmt::format("MeshOptions::gradation: expected a number above 0, found {}", *options.gradation));
   if (const std::optional<double>& loss = options.features.max_loss; loss && !(*loss >= 0 && *loss <= 1))
     throw ConfigError(fmt::format("MeshOptions::features.max_loss: expected a share from 0 to 1, found {}", *loss));
   if (options.min_size && options.max_size && *options.min_size > *options.max_size)
@@ -94,11 +100,24 @@ void check_values(const MeshOptions& options) {
       throw ConfigError(fmt::format("MeshOptions::fixed_points: expected finite numbers, found ({}, {})", p.x, p.y));
 }
 
+/// Absolute sizes need a length that the size itself does not give.
+void check_absolute(const Size& size, const MeshOptions& options) {
+  if (!options.absolute_sizes)
+    return;
+  if (size.is_automatic() && !options.min_size)
+    throw ConfigError("MeshOptions::min_size: expected a length, because absolute_sizes is set and the size is "
+                      "automatic: features of the boundary that are smaller are not resolved");
+  if (!size.is_automatic() && !size.function() && !size.field() && !options.max_size)
+    throw ConfigError("MeshOptions::max_size: expected the length of the edges, because absolute_sizes is set and the "
+                      "size is uniform");
+}
+
 } // namespace
 
-void check_options(const Shape& shape, const MeshOptions& options, const comm::Communicator& comm) {
+void check_options(const Shape& shape, const Size& size, const MeshOptions& options, const comm::Communicator& comm) {
   check_same(shape, options, comm);
   check_values(options); // the same on all ranks
+  check_absolute(size, options);
 }
 
 } // namespace trime

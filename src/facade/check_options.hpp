@@ -7,9 +7,9 @@
 
 namespace trime {
 
-/// Checks the options.
+/// Checks the options, and whether they suit the size.
 /// @throws ConfigError on all ranks together, if no mesh can satisfy an option or if ranks have different options
 /// @note Collective.
-void check_options(const Shape& shape, const MeshOptions& options, const comm::Communicator& comm);
+void check_options(const Shape& shape, const Size& size, const MeshOptions& options, const comm::Communicator& comm);
 
 } // namespace trime

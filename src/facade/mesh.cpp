@@ -73,10 +73,22 @@ void check_running() {
     throw ConfigError("MPI was finalised before the last use of a mesh: expected MPI_Finalize after it");
 }
 
-meshing::MeshOptions lower_options(const MeshOptions& given) {
+/// The largest growth of h, as in the program. Empty: the size is used as it is.
+std::optional<double> growth_of(const MeshOptions& given, const Size& size) {
+  constexpr double of_functions = 0.3;
+  if (given.gradation)
+    return std::isfinite(*given.gradation) ? given.gradation : std::nullopt;
+  if (size.is_automatic())
+    return size.gradation() > 0 ? std::optional(size.gradation()) : std::nullopt;
+  return size.function() || size.field() ? std::optional(of_functions) : std::nullopt;
+}
+
+meshing::MeshOptions lower_options(const MeshOptions& given, const Size& size) {
   meshing::MeshOptions options;
   options.points = given.points;
   options.edge_length = given.edge_length;
+  options.absolute_sizes = given.absolute_sizes;
+  options.gradation = growth_of(given, size);
   options.method = given.method;
   options.min_size = given.min_size;
   options.max_size = given.max_size;
@@ -252,12 +264,12 @@ void Mesh::write(const std::string& path, const WriteOptions& options) const {
 
 Mesh make_mesh(MPI_Comm handle, const Shape& shape, const Size& size, const MeshOptions& options) {
   const auto comm = std::make_shared<const comm::Communicator>(comm::duplicate_of(handle));
-  check_options(shape, options, *comm);
+  check_options(shape, size, options, *comm);
   Log quiet(LogLevel::warning, comm->is_root() && options.log == nullptr, stderr);
   Log& log = options.log != nullptr ? *options.log : quiet;
   const geometry::Domain domain = build_domain(shape, options, *comm, log);
   const geometry::Boundary& boundary = domain.boundary();
-  const meshing::MeshOptions lower = lower_options(options);
+  const meshing::MeshOptions lower = lower_options(options, size);
   const std::shared_ptr<const sizing::SizeField> field = build_size(size, domain, lower, *comm);
   TimerTable timers;
   auto made = std::make_unique<Mesh::Implementation>();

@@ -60,12 +60,14 @@ public:
 
   DensityResult solve() {
     const geometry::Boundary& boundary = context_.given_boundary;
+    if (begin_)
+      trials_.begin_with(*begin_);
+    if (context_.options.absolute)
+      return trials_.run(1);
     const double uniform = context_.options.points ? estimated_size(boundary.area, boundary.length(), points_)
                                                    : *context_.options.edge_length;
     double smallest = 0;
     comm::run_agreed(context_.comm, [&] { smallest = smallest_sampled_size(context_); });
-    if (begin_)
-      trials_.begin_with(*begin_);
     if (context_.options.points)
       return for_points(uniform, smallest);
     return for_edge_length(uniform / smallest);

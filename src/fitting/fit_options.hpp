@@ -13,8 +13,11 @@ namespace trime::fitting {
 /// See MeshOptions for the meaning and the default of each option.
 struct FitOptions {
   std::optional<int> cells_x, cells_y;
-  std::optional<GlobalId> points; ///< exactly one of points and edge_length is set
+  std::optional<GlobalId> points; ///< exactly one of points and edge_length is set, unless the sizes are absolute
   std::optional<double> edge_length;
+  bool absolute = false;               ///< the factor of the size is 1; then neither points nor edge_length is set
+  std::optional<GlobalId> point_limit; ///< a mesh with more points is refused
+  std::optional<double> gradation;     ///< largest growth of h per unit of distance; empty: not limited
   boundary::FeatureOptions features;
   std::optional<double> min_size, max_size;
 };

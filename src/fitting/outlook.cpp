@@ -50,6 +50,8 @@ std::variant<Found, TooFewPoints> fitted(const LayoutContext& context, double po
 
 /// The factor that a run of few points would go by, and from it that of the points asked for.
 std::variant<double, TooFewPoints> fitted_factor(const LayoutContext& context, double points) {
+  if (context.options.absolute)
+    return 1.0;
   FitOptions options = context.options;
   const double fewer = std::fmin(points, LayoutRules::outlook_points), longer = std::sqrt(points / fewer);
   if (options.points)

@@ -8,6 +8,7 @@
 #include "comm/agree.hpp"
 #include "core/processors.hpp"
 #include "extraction/extraction.hpp"
+#include "fitting/expected_points.hpp"
 #include "fitting/layout_context.hpp"
 #include "fitting/size_warnings.hpp"
 #include "meshing/checkpoint_writer.hpp"
@@ -296,7 +297,7 @@ void Run::tell_of_run(MeshResult& result) {
 
 /// Sets what was asked for and how the start met it. @pre the mesh is in the result
 void Run::tell_of_start(MeshResult& result) const {
-  result.requested_points = run_.options.points.value_or(0);
+  result.requested_points = run_.fit.points.value_or(0);
   result.edge_length = run_.relative_size.is_uniform() ? stage_.asked_size->size({}) : stage_.typical_size;
   result.start_reason = scheme_.reason();
   const GlobalId points = result.mesh.point_slab.total;
@@ -308,7 +309,7 @@ void Run::tell_of_start(MeshResult& result) const {
 
 /// Why there are fewer points than asked for; empty if there are nearly as many.
 std::string Run::count_reason(GlobalId points) const {
-  const std::optional<GlobalId>& asked = run_.options.points;
+  const std::optional<GlobalId>& asked = run_.fit.points;
   if (!asked || static_cast<double>(points) >
                     MeshingRules::shortage_note * static_cast<double>(*asked) - MeshingRules::shortage_slack)
     return {};
@@ -349,6 +350,13 @@ void Mesher::go_on_from(const SavedRun& saved) {
 MeshResult Mesher::run() {
   return Run(implementation_->run, implementation_->observer, implementation_->checkpoints, implementation_->saved)
       .make();
+}
+
+double Mesher::expected_points() const {
+  const RunContext& run = implementation_->run;
+  const MeshedBoundary boundary(run);
+  return fitting::expected_points(
+      {run.comm, run.domain, run.relative_size, run.fit, run.log, run.timers, boundary.fixed()});
 }
 
 Outlook Mesher::outlook(Advice advice) const {

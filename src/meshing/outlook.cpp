@@ -4,6 +4,7 @@
 #include "boundary/changed_bodies.hpp"
 #include "boundary/feature_report.hpp"
 #include "comm/agree.hpp"
+#include "fitting/expected_points.hpp"
 #include "fitting/outlook.hpp"
 #include "fitting/points_of_length.hpp"
 #include "fitting/rules.hpp"
@@ -87,6 +88,11 @@ double rounded_down(double length) {
 /// Sets numbers that were tried. Collective.
 void advise(const RunContext& run, const LayoutContext& layout, LaidOutlook& ahead, Outlook& outlook) {
   fitting::find_keeping_factor(layout, ahead);
+  if (run.fit.absolute) {
+    if (ahead.keeps)
+      outlook.keeping_factor = ahead.keeping_factor;
+    return;
+  }
   const bool uniform = run.relative_size.is_uniform();
   const double largest = ahead.keeping_factor * (uniform ? run.relative_size.size({}) : 1);
   outlook.keeping_points = rounded_up(uniform ? fitting::points_of_length(run.given_boundary, largest)
@@ -112,8 +118,7 @@ Outlook look_ahead(const RunContext& run, Advice advice) {
   const LayoutContext layout{run.comm, run.domain, run.relative_size, run.fit, run.log, run.timers, boundary.fixed()};
   Outlook outlook;
   LaidOutlook ahead;
-  ahead.points = run.fit.points ? static_cast<double>(*run.fit.points)
-                                : fitting::points_of_length(run.given_boundary, *run.fit.edge_length);
+  outlook.points = ahead.points = fitting::expected_points(layout);
   if (ahead.points <= LayoutRules::outlook_points) {
     const LastStage last(run, layout);
     outlook.features = features_of(run, boundary, last.stage(), last.limits());

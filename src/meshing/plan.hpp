@@ -7,10 +7,12 @@
 #include "start/point_scheme.hpp"
 #include "sweep/stopping.hpp"
 #include "trime/meshing/options.hpp"
+#include "trime/sizing/size_field.hpp"
 
 namespace trime::meshing {
 
-fitting::FitOptions fit_options(const MeshOptions& options);
+/// @param size decides whether absolute sizes are one length
+fitting::FitOptions fit_options(const MeshOptions& options, const sizing::SizeField& size);
 start::StartOptions start_options(const MeshOptions& options);
 sweep::SweepOptions sweep_options(const MeshOptions& options);
 cleanup::CleanupOptions cleanup_options(const MeshOptions& options);

@@ -19,7 +19,7 @@ struct RunContext {
   RunContext(const comm::Communicator& communicator, const geometry::Domain& its_domain, const sizing::SizeField& size,
              const MeshOptions& mesh_options, Log& its_log, TimerTable& its_timers)
       : comm(communicator), domain(its_domain), given_boundary(domain.boundary()), relative_size(size),
-        options(mesh_options), fit(fit_options(mesh_options)), sweeps(sweep_options(mesh_options)),
+        options(mesh_options), fit(fit_options(mesh_options, size)), sweeps(sweep_options(mesh_options)),
         lattice(domain.frame().lattice()), log(its_log), timers(its_timers) {}
 
   const comm::Communicator& comm;

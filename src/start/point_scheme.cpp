@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "start/point_scheme.hpp"
 
-#include "fitting/points_of_length.hpp"
+#include "fitting/expected_points.hpp"
 #include "fitting/rules.hpp"
 #include "placing/work_share.hpp"
 #include "start/refinement.hpp"
@@ -49,7 +49,7 @@ int divisions_for(double points) {
 } // namespace
 
 PointScheme::PointScheme(const fitting::LayoutContext& context, const StartOptions& options)
-    : given_(context), fit_(context), options_(options) {
+    : given_(context), fit_(context), options_(options), asked_points_(fitting::expected_points(context)) {
   choose();
 }
 
@@ -68,9 +68,7 @@ GlobalId PointScheme::reserve() const {
 }
 
 double PointScheme::expected_points() const {
-  if (given_.options.points)
-    return static_cast<double>(*given_.options.points - reserve());
-  return fitting::points_of_length(given_.given_boundary, *given_.options.edge_length);
+  return asked_points_ - static_cast<double>(reserve());
 }
 
 /// By the options and the size.
@@ -139,6 +137,9 @@ PointScheme::First PointScheme::first_of_lattice() {
   const auto time = given_.timers.scope("start");
   const placing::LatticeStart start(given_.given_boundary, *fit.stage.guard, given_.lattice);
   share_runs(start, fit);
+  if (given_.options.point_limit)
+    fitting::check_point_limit(given_.options,
+                               static_cast<double>(given_.comm.sum(fit.runs.count()) + fit.stage.placed_first()));
   fit_.place_sites(fit.stage, start.sites(fit.runs, static_cast<std::size_t>(fit.stage.placed_first())));
   return std::move(fit.stage);
 }
@@ -160,7 +161,9 @@ PointScheme::First PointScheme::first_of_insertion() {
       fit_.find_density(expected_points(), std::fmin(coarsening, coarsest_integral));
   if (fitting::TooFewPoints* few = std::get_if<fitting::TooFewPoints>(&found))
     return std::move(*few);
-  shortage_ = std::move(std::get<fitting::StageFit>(found).shortage);
+  fitting::StageFit& fit = std::get<fitting::StageFit>(found);
+  fitting::check_point_limit(given_.options, fit.inner + static_cast<double>(fit.stage.placed_first()));
+  shortage_ = std::move(fit.shortage);
   Stage stage = fit_.lay(coarsening, points_now_);
   if (const double held = static_cast<double>(stage.placed_first()); points_now_ < 2 * held) {
     points_now_ = std::min(expected_points(), 2 * held); // a stage of boundary alone has no order to pass on
@@ -185,6 +188,7 @@ PointScheme::First PointScheme::first_of_divisions() {
   fitting::StageFit& fit = std::get<fitting::StageFit>(found);
   shortage_ = std::move(fit.shortage);
   const double points = fit.inner + static_cast<double>(fit.stage.placed_first());
+  fitting::check_point_limit(given_.options, points);
   Stage stage;
   std::unique_ptr<const placing::HilbertStart> start;
   double inner = 0;

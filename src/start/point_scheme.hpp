@@ -98,6 +98,7 @@ private:
   const fitting::LayoutContext& given_;
   fitting::Fit fit_;
   const StartOptions options_;
+  const double asked_points_; // number of points that was asked for, or that the sizes take
   Scheme scheme_ = Scheme::lattice;
   int stage_ = 0, last_stage_ = 0;
   sites::Stage laid_last_; // last stage of the scheme coarse to fine, prepared in advance

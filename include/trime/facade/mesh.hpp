@@ -83,11 +83,18 @@ using sweep::Method;
 
 /// The options of make_mesh. The defaults are the same as in the program `trime_mpi`.
 struct MeshOptions {
-  std::optional<GlobalId> points{}; ///< number of points; exactly one of points and edge_length must be set
+  /// Number of points. Exactly one of points and edge_length must be set, unless `absolute_sizes` is set: then
+  /// edge_length must be empty, and points is a limit, above which the mesh is refused.
+  std::optional<GlobalId> points{};
   std::optional<double>
       edge_length{}; ///< target edge length; if the size varies, it is scaled so that its mean is this length
+  /// If true, the size gives lengths, and is not multiplied by a factor. A uniform size then needs `max_size`.
+  bool absolute_sizes = false;
   Method method = Method::hybrid;
   std::optional<double> min_size{}, max_size{}; ///< absolute bounds on the edge length
+  /// Largest growth of the edge length per unit of distance. Default: 0.3 for functions and fields, the gradation of
+  /// the automatic size, and 0.2 around narrow places; infinity: a function is used as it is.
+  std::optional<double> gradation{};
   /// The rectangle on whose lattice all coordinates lie; it must contain the shape. Default: the unit square if the
   /// shape fits into it, otherwise a box around the shape.
   std::optional<Box> container{};

@@ -20,12 +20,14 @@ namespace trime::meshing {
 /// An estimate of how a run would simplify the boundary (MeshResult::features), and of the resolution at which it would
 /// simplify nothing.
 struct Outlook {
+  double points = 0; ///< about as many as the mesh will have
   boundary::FeatureReport
       features;           ///< as a run would report it at the start of its last stage; an estimate above 1e5 points
   bool keeps_all = false; ///< true if nothing would be simplified or dropped
   /// Number of points with which nothing is simplified; only a lower bound if `is_tried` is false; 0: no advice.
   double keeping_points = 0;
-  bool is_tried = false; ///< whether the boundary was placed for keeping_points points, and nothing was simplified
+  bool is_tried = false;     ///< whether the boundary was placed for keeping_points points, and nothing was simplified
+  double keeping_factor = 0; ///< factor on absolute sizes with which nothing is simplified; 0: no advice
   double keeping_edge_length = 0; ///< a tried edge length that keeps everything, if the size is uniform; otherwise 0
 };
 
@@ -82,6 +84,12 @@ public:
   /// @throws the errors of run()
   /// @note Collective.
   Outlook outlook(Advice advice = Advice::yes) const;
+
+  /// Returns about as many points as the mesh will have. Cost: small, except for absolute sizes: then that of an
+  /// integral over the shape.
+  /// @throws GeometryError on all ranks together if a size is not positive and finite
+  /// @note Collective.
+  double expected_points() const;
 
 private:
   class Implementation;

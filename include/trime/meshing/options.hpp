@@ -20,15 +20,23 @@ namespace trime::meshing {
 
 /// Options for making one mesh.
 struct MeshOptions {
-  std::optional<GlobalId> points;    ///< number of points; exactly one of points and edge_length must be set
+  /// Number of points. Exactly one of points and edge_length must be set, unless the sizes are absolute: then
+  /// edge_length must be empty, and points is a limit.
+  std::optional<GlobalId> points;
   std::optional<double> edge_length; ///< target edge length; if the size varies, its mean
+  /// If true, the size field gives lengths, and no factor is applied. A mesh that would have more than `points` points
+  /// is refused with a ConfigError.
+  bool absolute_sizes = false;
   sweep::Method method = sweep::Method::hybrid;
   std::uint64_t seed = 1;
   int max_sweeps = 500;
 
   std::optional<int> cells_x, cells_y;      ///< cells of the grid over the container; empty: about 3.3 points per cell
   std::optional<double> min_size, max_size; ///< lower and upper bound on the target edge length h
-  boundary::FeatureOptions features;        ///< which corners, islands and lakes the mesh keeps
+  /// Largest growth of h per unit of distance in the mesh as it is written, around narrow places, too. A steeper size
+  /// is lowered around its small values. Empty: the size is used as it is, and grows by 0.2 around narrow places.
+  std::optional<double> gradation;
+  boundary::FeatureOptions features; ///< which corners, islands and lakes the mesh keeps
 
   start::Start start = start::Start::automatic; ///< how the first points are placed; automatic: a lattice for a uniform
                                                 ///< size field, otherwise coarse to fine
