@@ -8,7 +8,7 @@
 namespace trime {
 
 /// The purpose for which a random number is used. Different purposes get different numbers.
-enum class RandomPurpose : std::uint64_t { site_position = 1, deletion = 2, test = 99 };
+enum class RandomPurpose : std::uint64_t { site_position = 1, deletion = 2, size_sample = 3, test = 99 };
 
 /// The finaliser of splitmix64 (Steele, Lea, Flood 2014), a bijection in which every input bit changes many output
 /// bits.

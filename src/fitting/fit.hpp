@@ -61,6 +61,8 @@ public:
   const LayoutContext& context() const { return context_; }
   /// Returns the factor by which the size field is multiplied. Local.
   double factor() const { return fitted_.factor; }
+  /// Returns where the size is limited because it grows too fast, at the factor that was found. Local.
+  const SteepPlaces& steep() const { return fitted_.steep; }
   /// Returns the places where the boundary needs smaller triangles than the size field asks for. Local.
   std::span<const sizing::SizeLimit> limits() const { return fitted_.limits; }
 

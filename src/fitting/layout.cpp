@@ -26,6 +26,12 @@ constexpr double affordable_growth = 1.5;
 // [sites] A boundary with so few sites is always laid to its end: that takes no time.
 constexpr double always_affordable = 1000;
 
+// [samples] Smallest number in which steep places of a size are looked for. Bands of 0.004 of the width are found.
+constexpr double steep_samples = 192 * 192;
+
+// [1] Steep places that were found for a factor serve factors that differ by a smaller share.
+constexpr double same_steepness = 0.05;
+
 using boundary::BoundaryRefiner;
 using boundary::BoundaryRules;
 using boundary::BoundarySizes;
@@ -73,14 +79,41 @@ std::unique_ptr<SiteState> make_state(const LayoutContext& context, const Bounda
                                                        periods});
 }
 
+/// Looks for places where the size of this factor is too steep, unless they are known for about the same factor.
+void find_steep_places(const LayoutContext& context, const Stage& stage, FittedSize& fitted) {
+  const std::optional<double>& gradation = context.options.gradation;
+  const sizing::ScaledSize& asked = *stage.asked_size;
+  SteepPlaces& steep = fitted.steep;
+  if (!gradation || asked.factor() * context.relative_size.largest_growth() <= *gradation) {
+    steep.limits.clear();
+    return;
+  }
+  if (std::fabs(steep.factor - asked.factor()) > same_steepness * asked.factor()) {
+    const double points = context.given_boundary.area / (row_height * stage.typical_size * stage.typical_size);
+    if (!steep.sizes)
+      steep.sizes = std::make_shared<sizing::SteepSizes>(context.relative_size, context.given_boundary, context.lattice,
+                                                         std::fmax(steep_samples, 0.5 * points));
+    sizing::SteepSizes::Limits found = steep.sizes->limits(asked, *gradation);
+    steep.limits = std::move(found.limits);
+    steep.steepest = found.steepest;
+    steep.factor = asked.factor();
+  }
+  for (sizing::SizeLimit& limit : steep.limits)
+    limit.size = asked.size(limit.place);
+}
+
 /// The sizes of a stage from what `fitted` says and its coarsening.
-void set_sizes(const LayoutContext& context, const FittedSize& fitted, Stage& stage) {
+void set_sizes(const LayoutContext& context, FittedSize& fitted, Stage& stage) {
   stage.asked_size = std::make_unique<sizing::ScaledSize>(context.asked_size(fitted.factor));
   stage.lowered_size.reset();
+  find_steep_places(context, stage, fitted);
   const sizing::SizeField* last = stage.asked_size.get();
-  if (!fitted.limits.empty()) {
+  if (!fitted.limits.empty() || !fitted.steep.limits.empty()) {
     stage.lowered_size = std::make_unique<sizing::LoweredSize>(
-        *stage.asked_size, fitted.limits, BoundaryRules::gradation, context.given_boundary.periods);
+        *stage.asked_size,
+        std::initializer_list<sizing::GradedLimits>{{fitted.limits, context.narrow_gradation()},
+                                                    {fitted.steep.limits, context.options.gradation.value_or(1)}},
+        context.given_boundary.periods);
     last = stage.lowered_size.get();
   }
   stage.size = std::make_unique<sizing::ScaledSize>(*last, stage.coarsening);
@@ -194,14 +227,14 @@ std::vector<sizing::SizeLimit> further_limits(const LayoutContext& context, cons
   const auto time = context.timers.scope("boundary");
   if (trial.asked_size->is_uniform() || trial.polygon.overfull)
     return {};
-  return size_limits(context.comm, trial.polygon, *trial.size, *trial.asked_size, BoundaryRules::gradation);
+  return size_limits(context.comm, trial.polygon, *trial.size, *trial.asked_size, context.narrow_gradation());
 }
 
 bool needs_lowering(const LayoutContext& context, const Stage& laid) {
   const auto time = context.timers.scope("boundary");
   bool needed = false;
   for (const sizing::SizeLimit& limit :
-       size_limits(context.comm, laid.polygon, *laid.size, *laid.asked_size, BoundaryRules::gradation))
+       size_limits(context.comm, laid.polygon, *laid.size, *laid.asked_size, context.narrow_gradation()))
     needed |= limit.size < LayoutRules::lowering_pays * laid.size->size(limit.place);
   return needed;
 }

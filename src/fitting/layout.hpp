@@ -8,11 +8,20 @@
 #include "fitting/simplified_curves.hpp"
 #include "sites/stage.hpp"
 #include "sizing/lowered_size.hpp"
+#include "sizing/steep_sizes.hpp"
 
 #include <memory>
 #include <vector>
 
 namespace trime::fitting {
+
+/// Where the size asked for is too steep, at one factor of the size.
+struct SteepPlaces {
+  double factor = 0; ///< 0: not looked for
+  std::vector<sizing::SizeLimit> limits{};
+  sizing::SteepSizes::Steepest steepest{{}, 0};
+  std::shared_ptr<sizing::SteepSizes> sizes{}; ///< samples of the relative size; made when needed
+};
 
 /// The data that determine the size field of the last stage, and data that one layout keeps for the next.
 struct FittedSize {
@@ -20,6 +29,7 @@ struct FittedSize {
   std::vector<sizing::SizeLimit> limits{}; ///< where the boundary needs smaller triangles than the size asks for
   std::shared_ptr<const boundary::SizeSamples>
       samples{};         ///< samples of the relative size on the boundary of the shape; made when needed
+  SteepPlaces steep{};   ///< where the size is limited because it grows too fast
   CurvesAtSize curves{}; ///< curves for the factor of the last layout
 };
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "boundary/fixed_points.hpp"
+#include "boundary/rules.hpp"
 #include "fitting/fit_options.hpp"
 #include "trime/comm/communicator.hpp"
 #include "trime/core/log.hpp"
@@ -42,6 +43,10 @@ struct LayoutContext {
       domain.boundary(); ///< the boundary as it was given, without corners at fixed points
   const geometry::Lattice& lattice = domain.frame().lattice();
 
+  /// Returns by how much h may grow per unit of distance around narrow places.
+  double narrow_gradation() const {
+    return std::fmin(boundary::BoundaryRules::gradation, options.gradation.value_or(INFINITY));
+  }
   /// Returns relative_size times this factor, within the smallest and the largest size. @pre this context outlives the
   /// result
   sizing::ScaledSize asked_size(double factor) const {

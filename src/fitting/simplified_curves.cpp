@@ -103,7 +103,8 @@ std::unique_ptr<generalise::Generalised> brought_near(const LayoutContext& conte
         limits.push_back({p, (lowered ? lowered->size(p) : size.size(p)) * (within / one.in_sizes())});
     if (round == LayoutRules::nearer_rounds || limits.empty())
       return nullptr;
-    lowered = std::make_unique<sizing::LoweredSize>(size, limits, BoundaryRules::gradation, given.periods);
+    lowered = std::make_unique<sizing::LoweredSize>(
+        size, std::initializer_list<sizing::GradedLimits>{{limits, context.narrow_gradation()}}, given.periods);
     found = generalised(context, given, *lowered);
   }
   return found;

@@ -2,6 +2,7 @@
 #include "fitting/size_warnings.hpp"
 
 #include "fitting/rules.hpp"
+#include "sizing/rules.hpp"
 #include "trime/core/error.hpp"
 
 #include <cmath>
@@ -47,6 +48,18 @@ void warn_of_steep_sizes(const Stage& stage, const geometry::Boundary& boundary,
     log.warning("the size field has gradient {:.3g} near {}, but triangles can follow a gradient of at most about 0.5: "
                 "expect fewer points and small angles, or use more points or a smoother size",
                 steepest, Place(place, 4));
+}
+
+void warn_of_lowered_growth(const SteepPlaces& steep, double gradation, Log& log) {
+  if (steep.limits.empty())
+    return;
+  log.warning("the size grows by up to {:.3g} per length near {}, but by at most {:g} in the mesh (gradation in "
+              "[sizing]): it is lowered around {} places{}; a larger gradation follows the size more closely, and "
+              "'none' uses it as it is",
+              steep.steepest.slope, Place(steep.steepest.place, 4), gradation, steep.limits.size(),
+              steep.limits.size() >= sizing::SizingRules::most_steep_places
+                  ? ", the largest number that is possible, and may be too steep at others"
+                  : "");
 }
 
 void warn_of_fine_features(const Stage& stage, bool has_least_size, Log& log) {

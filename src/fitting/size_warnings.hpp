@@ -2,6 +2,7 @@
 // Warnings about the size that a user can act on before the sweeps begin.
 #pragma once
 
+#include "fitting/layout.hpp"
 #include "sites/stage.hpp"
 #include "trime/core/log.hpp"
 #include "trime/geometry/boundary.hpp"
@@ -13,6 +14,9 @@ namespace trime::fitting {
 /// field at about 8000 places. @throws the errors of the size field
 void warn_of_steep_sizes(const sites::Stage& stage, const geometry::Boundary& boundary,
                          const geometry::Lattice& lattice, Log& log);
+
+/// Warns of a size that was lowered at places because it grows by more than `gradation` per length.
+void warn_of_lowered_growth(const SteepPlaces& steep, double gradation, Log& log);
 
 /// Warns of boundary edges far shorter than the size, and names a place. Cost: O(sites of the boundary).
 /// @param has_least_size whether the user has set a smallest size for narrow parts; then the function warns only of

@@ -211,6 +211,8 @@ void Run::report_boundary() {
     run_.log.warning("{}", warning.formatted());
   comm::run_agreed(run_.comm, [this] {
     fitting::warn_of_fine_features(stage_, run_.options.min_size.has_value(), run_.log);
+    if (run_.fit.gradation)
+      fitting::warn_of_lowered_growth(scheme_.steep(), *run_.fit.gradation, run_.log);
     fitting::warn_of_steep_sizes(stage_, run_.given_boundary, run_.lattice, run_.log);
     if (!boundary_.fixed().empty())
       boundary_.fixed().warn_of_close_ones(*stage_.guard, *stage_.size, run_.log);

@@ -38,7 +38,7 @@ double feature_floor(std::optional<GlobalId> points, std::optional<double> edge_
 AutomaticSize::AutomaticSize(const comm::Communicator& comm, const geometry::Boundary& boundary,
                              const AutomaticSizeOptions& options)
     : images_(std::make_unique<Images>(options.container, options.period_x, options.period_y)),
-      tree_(make_tree(comm, boundary, options, *images_)) {}
+      tree_(make_tree(comm, boundary, options, *images_)), gradation_(options.gradation) {}
 
 AutomaticSize::~AutomaticSize() = default;
 

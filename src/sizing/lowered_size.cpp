@@ -3,15 +3,15 @@
 
 #include "cones/cone_cells.hpp"
 
+#include <utility>
+
 namespace trime::sizing {
-namespace {
 
 using cones::Cone;
 using cones::ConeCells;
 using cones::ConeTree;
 
-/// With the images next to the container: a nearest one is among them.
-std::vector<Cone> cones_of(const std::vector<SizeLimit>& limits, const geometry::Periods& periods) {
+std::vector<Cone> limiting_cones(const std::vector<SizeLimit>& limits, const geometry::Periods& periods) {
   std::vector<Cone> cones;
   const int nx = periods.x > 0 ? 1 : 0, ny = periods.y > 0 ? 1 : 0;
   for (const SizeLimit& limit : limits)
@@ -21,12 +21,23 @@ std::vector<Cone> cones_of(const std::vector<SizeLimit>& limits, const geometry:
   return cones;
 }
 
-} // namespace
+/// The limits with one gradation. The cells refer to the tree.
+struct LoweredSize::Set {
+  std::unique_ptr<const ConeTree> tree;
+  std::unique_ptr<const ConeCells> cells;
+};
 
-LoweredSize::LoweredSize(const SizeField& field, const std::vector<SizeLimit>& limits, double gradation,
+LoweredSize::LoweredSize(const SizeField& field, std::initializer_list<GradedLimits> sets,
                          const geometry::Periods& periods)
-    : field_(field), periods_(periods), cones_(std::make_unique<const ConeTree>(cones_of(limits, periods), gradation)),
-      cells_(std::make_unique<const ConeCells>(*cones_, gradation)) {}
+    : field_(field), periods_(periods) {
+  for (const GradedLimits& set : sets) {
+    if (set.limits.empty())
+      continue;
+    auto tree = std::make_unique<const ConeTree>(limiting_cones(set.limits, periods), set.gradation);
+    auto cells = std::make_unique<const ConeCells>(*tree, set.gradation);
+    sets_.push_back({std::move(tree), std::move(cells)});
+  }
+}
 
 LoweredSize::~LoweredSize() = default;
 
@@ -36,11 +47,18 @@ double LoweredSize::size(geometry::Vec2 p) const {
 }
 
 std::size_t LoweredSize::memory_bytes() const {
-  return cones_->memory_bytes() + cells_->memory_bytes();
+  std::size_t bytes = 0;
+  for (const Set& set : sets_)
+    bytes += set.tree->memory_bytes() + set.cells->memory_bytes();
+  return bytes;
 }
 
 double LoweredSize::lowered(geometry::Vec2 p, double field_size) const {
-  return cells_->value(periods_.wrap(p), field_size);
+  const geometry::Vec2 canonical = periods_.wrap(p);
+  double least = field_size;
+  for (const Set& set : sets_)
+    least = set.cells->value(canonical, least);
+  return least;
 }
 
 } // namespace trime::sizing

@@ -9,6 +9,7 @@
 #include "trime/sizing/size_field.hpp"
 
 #include <array>
+#include <initializer_list>
 #include <memory>
 #include <vector>
 
@@ -37,6 +38,7 @@ inline std::array<CurveDistance, 2> curve_distances(const geometry::Piece& piece
 namespace trime::cones {
 class ConeCells;
 class ConeTree;
+struct Cone;
 } // namespace trime::cones
 
 namespace trime::sizing {
@@ -47,15 +49,23 @@ struct SizeLimit {
   double size;
 };
 
-/// @brief The size min(field(x), min over limits k of size_k + gradation |x - place_k|). In a periodic container,
-/// distances are those to the nearest periodic image.
+/// Returns the cones of limits, with the periodic images next to the container. A nearest image is among them.
+std::vector<cones::Cone> limiting_cones(const std::vector<SizeLimit>& limits, const geometry::Periods& periods);
+
+/// Limits of a size, and how fast the size may grow from them.
+struct GradedLimits {
+  const std::vector<SizeLimit>& limits;
+  double gradation;
+};
+
+/// @brief The size min(field(x), min over limits k of size_k + gradation |x - place_k|). There may be several sets of
+/// limits with different gradations. In a periodic container, distances are those to the nearest periodic image.
 class LoweredSize final : public SizeField {
 public:
   /// Takes O(n log n) time for n limits.
   /// @pre `field` outlives this object
-  LoweredSize(const SizeField& field, const std::vector<SizeLimit>& limits, double gradation,
-              const geometry::Periods& periods);
-  LoweredSize(const SizeField&&, const std::vector<SizeLimit>&, double, const geometry::Periods&) = delete;
+  LoweredSize(const SizeField& field, std::initializer_list<GradedLimits> sets, const geometry::Periods& periods);
+  LoweredSize(const SizeField&&, std::initializer_list<GradedLimits>, const geometry::Periods&) = delete;
   ~LoweredSize() override;
   /// Returns the lowered size at p. Takes about 60 ns for a thousand limits. Invalid sizes of the field are returned
   /// unchanged.
@@ -68,8 +78,8 @@ public:
 private:
   const SizeField& field_;
   geometry::Periods periods_;
-  std::unique_ptr<const cones::ConeTree> cones_;
-  std::unique_ptr<const cones::ConeCells> cells_;
+  struct Set;
+  std::vector<Set> sets_;
 };
 
 } // namespace trime::sizing

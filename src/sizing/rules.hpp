@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tuned numbers of the module sizing, for the automatic size field.
+// The tuned numbers of the module sizing, for the automatic size field and for the limit of its growth.
 #pragma once
 
 #include "core/angle.hpp"
+
+#include <cstddef>
 
 namespace trime::sizing {
 
@@ -35,6 +37,31 @@ struct SizingRules {
   /// [radius] A ball counts as nearly empty, so that only noise lies in it, if the distance from its centre to the
   /// boundary is at least this share of its radius.
   static constexpr double nearly_empty_share = 0.7;
+
+  /// [samples] Largest number of samples in which steep places are looked for. Not measured.
+  static constexpr double most_steep_samples = 1 << 20;
+  /// [cells] Smallest number of cells with a sample along a side of the box around the shape. Not measured.
+  static constexpr int least_steep_cells = 8;
+  /// [cells] Largest number of cells with a sample along a side of the box around the shape. Not measured.
+  static constexpr int most_steep_cells = 1 << 14;
+  /// [places] Largest number of places from which the growth of a size is limited. Not measured.
+  static constexpr std::size_t most_steep_places = std::size_t{1} << 17;
+  /// [places] A tree over the places is not renewed for fewer new ones. Not measured.
+  static constexpr std::size_t few_steep_places = 64;
+  /// [1] A slope counts as steep if it exceeds the gradation by this relative error. Not measured.
+  static constexpr double gentle_excess = 0.01;
+  /// [1] A sample is covered by the places found so far if the size that they allow there is smaller by this relative
+  /// error. Not measured.
+  static constexpr double covered_error = 0.005;
+  /// [h] Distance of the steps with which the lower edge of a steep part is followed. Not measured.
+  static constexpr double front_step = 0.35;
+  /// [gradation x front_step x h] A place on the edge is kept if it lowers the size there by at least this much. Not
+  /// measured.
+  static constexpr double front_gain = 0.5;
+  /// [h] Error of the distance of a place from the edge of the steep part. Not measured.
+  static constexpr double front_precision = 0.02;
+  /// [rounds] Largest number of steps to the edge of a steep part. Not measured.
+  static constexpr int descent_rounds = 40;
 };
 
 } // namespace trime::sizing

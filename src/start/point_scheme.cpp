@@ -39,6 +39,10 @@ constexpr double small_shortage = 0.01;
 // that are full of fixed points.
 constexpr double most_replaced = 4;
 
+// [stages] Divisions where the size is limited to the growth that triangles can follow: the sizes of the coarser stage
+// grow by twice as much.
+constexpr int divisions_of_steep_sizes = 1;
+
 using sites::Stage;
 using sites::StageView;
 
@@ -193,6 +197,8 @@ PointScheme::First PointScheme::first_of_divisions() {
   std::unique_ptr<const placing::HilbertStart> start;
   double inner = 0;
   const double on_boundary = static_cast<double>(fit.stage.polygon.sites.size());
+  if (!fit_.steep().limits.empty())
+    last_stage_ = std::min(last_stage_, divisions_of_steep_sizes);
   while (last_stage_ > 0 && std::ldexp(fit.inner, -2 * last_stage_) < std::ldexp(on_boundary, -last_stage_))
     --last_stage_; // the share of the strip and of corners only grows
   for (;; --last_stage_) {

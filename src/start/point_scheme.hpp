@@ -63,6 +63,8 @@ public:
   /// Returns the places where the boundary needs smaller triangles than the size that was asked for.
   /// @pre first() was called
   std::span<const sizing::SizeLimit> limits() const { return fit_.limits(); }
+  /// Returns where the size is limited because it grows too fast. @pre first() was called
+  const fitting::SteepPlaces& steep() const { return fit_.steep(); }
   /// Returns the factor of a size that varies. @pre first() was called
   double factor() const { return fit_.factor(); }
   /// Returns in one line which scheme was chosen and why.

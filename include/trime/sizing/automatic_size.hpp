@@ -65,6 +65,7 @@ public:
   /// Returns the size at p. Takes about 15 ns if points are passed row by row, and 60 ns for random points; does not
   /// allocate.
   double size(geometry::Vec2 p) const override;
+  double largest_growth() const override { return gradation_; }
   double least() const;   ///< lower bound on all values of the field
   double largest() const; ///< upper bound on all values of the field
   std::size_t memory_bytes() const override;
@@ -72,6 +73,7 @@ public:
 private:
   std::unique_ptr<const Images> images_;
   std::unique_ptr<const cones::SizeQuadtree> tree_;
+  double gradation_;
 };
 
 /// @brief Makes the automatic size field, or a uniform one if the gradation is 0 or there is no boundary. Collective.

@@ -21,6 +21,9 @@ public:
   virtual double size(geometry::Vec2 p) const = 0;
   /// Returns true if the size is the same everywhere. Then a run can start from a hexagonal lattice.
   virtual bool is_uniform() const { return false; }
+  /// Returns an upper bound on the growth of the size per unit of distance; infinity if it is not known. The mesher
+  /// does not look for steep places of a size that is known to be gentle.
+  virtual double largest_growth() const { return std::numeric_limits<double>::infinity(); }
   /// Returns the number of bytes of the field's tables, for the report.
   virtual std::size_t memory_bytes() const { return 0; }
 };
@@ -49,6 +52,7 @@ public:
   explicit UniformSize(double size = 1) : size_(size) {}
   double size(geometry::Vec2) const override { return size_; }
   bool is_uniform() const override { return true; }
+  double largest_growth() const override { return 0; }
 
 private:
   double size_;

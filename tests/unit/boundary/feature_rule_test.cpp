@@ -271,13 +271,17 @@ TEST(SitePath, NeighbouringPlacesAreJoinedIfNothingElseIsAllowed) {
 TEST(LoweredSize, GrowsFromTheLimitsAndSeesImages) {
   const UniformSize uniform(0.1);
   geometry::Periods periods;
-  const sizing::LoweredSize plain(uniform, {{{0.9, 0.5}, 0.02}, {{0.2, 0.5}, 0.5}}, 0.2, periods);
+  const std::vector<sizing::SizeLimit> limits{{{0.9, 0.5}, 0.02}, {{0.2, 0.5}, 0.5}}, steep{{{0.5, 0.5}, 0.01}};
+  const sizing::LoweredSize plain(uniform, {{limits, 0.2}}, periods);
   EXPECT_DOUBLE_EQ(plain.size({0.9, 0.5}), 0.02);
   EXPECT_NEAR(plain.size({0.8, 0.5}), 0.04, 1e-12);
   EXPECT_DOUBLE_EQ(plain.size({0.2, 0.5}), 0.1);
   EXPECT_DOUBLE_EQ(plain.size({0.05, 0.5}), 0.1);
+  const sizing::LoweredSize both(uniform, {{limits, 0.2}, {steep, 0.5}}, periods);
+  EXPECT_DOUBLE_EQ(both.size({0.9, 0.5}), 0.02);
+  EXPECT_NEAR(both.size({0.5, 0.6}), 0.06, 1e-12);
   periods.x = 1;
-  EXPECT_NEAR(sizing::LoweredSize(uniform, {{{0.9, 0.5}, 0.02}}, 0.2, periods).size({0.05, 0.5}), 0.05, 1e-12);
+  EXPECT_NEAR(sizing::LoweredSize(uniform, {{limits, 0.2}}, periods).size({0.05, 0.5}), 0.05, 1e-12);
 }
 
 } // namespace

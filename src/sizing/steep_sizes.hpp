@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Finds the places from which a size must be limited so that it grows by no more than a given gradation per length.
+#pragma once
+
+#include "sizing/lowered_size.hpp"
+#include "trime/geometry/boundary.hpp"
+#include "trime/geometry/lattice.hpp"
+#include "trime/geometry/segment_grid.hpp"
+#include "trime/sizing/size_field.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace trime::sizing {
+
+/// @brief Limits the growth of a size field. The largest size below h that grows by at most K per length is the minimum
+/// over all places y of h(y) + K |x - y|. Only places y at the lower edge of a steep part of h matter: at all others, h
+/// itself is the minimum. This class samples h on a grid over the shape with one random place in each cell, begins
+/// where two neighbouring samples differ too much, and follows the lower edge of each steep part from there. So it
+/// finds a band of small sizes that is far narrower than the cells, if one sample lies in it. (Persson, "Mesh size
+/// functions for implicit geometries and PDE-based gradient limiting", 2006, solves the same problem on a whole grid.)
+class SteepSizes {
+public:
+  /// Samples the field. Uses all threads. Cost: one evaluation of the field for each sample.
+  /// @param relative the field; invalid sizes are skipped, as they may lie outside of the shape
+  /// @param samples about the number of samples, in the box around the boundary
+  /// @pre `relative` and `boundary` outlive this object
+  SteepSizes(const SizeField& relative, const geometry::Boundary& boundary, const geometry::Lattice& lattice,
+             double samples);
+
+  /// A place from which the size must be limited, and how steep the size is there.
+  struct Steepest {
+    geometry::Vec2 place;
+    double slope;
+  };
+  struct Limits {
+    std::vector<SizeLimit> limits; ///< places and sizes; empty if the size is nowhere too steep
+    Steepest steepest{{}, 0};      ///< steepest pair of neighbouring samples in the shape
+  };
+  /// @brief Returns the limits for a size. Local; the same bits for any number of threads. Cost: about 200 evaluations
+  /// of the field for each limit; there is about one limit for each 0.35 h along the edges of steep parts, and at most
+  /// SizingRules::most_steep_places.
+  /// @param asked the field times a factor
+  Limits limits(const ScaledSize& asked, double gradation);
+
+private:
+  struct Sample {
+    geometry::Vec2 place;
+    double relative;
+  };
+  class Front;
+  struct Seed;
+  std::vector<Seed> seeds(const ScaledSize& asked, double gradation) const;
+  bool inside(geometry::Vec2 p);
+
+  const SizeField& relative_;
+  const geometry::Boundary& boundary_;
+  const geometry::Lattice& lattice_;
+  int columns_ = 0, rows_ = 0;
+  std::vector<Sample> samples_;                     // row by row
+  std::optional<geometry::SegmentGrid> segments_{}; // of the boundary, made when needed
+};
+
+} // namespace trime::sizing
