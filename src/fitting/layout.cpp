@@ -153,7 +153,7 @@ std::unique_ptr<BoundaryRefiner> make_refiner(const LayoutContext& context, std:
     return std::make_unique<BoundaryRefiner>(curves, sizes, context.lattice, context.options.features.corner_angle,
                                              context.fixed.inside(), rule, affordable);
   };
-  if (stage.size->is_uniform())
+  if (stage.size->is_uniform() || !fitted.steep.limits.empty()) // samples of a steep size would lie too far apart
     return make({*stage.size, asked});
   std::shared_ptr<const SizeSamples>& samples = stage.curves ? fitted.curves.samples : fitted.samples;
   if (!samples || !samples->serve(fitted.factor))
