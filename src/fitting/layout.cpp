@@ -29,8 +29,12 @@ constexpr double always_affordable = 1000;
 // [samples] Smallest number in which steep places of a size are looked for. Bands of 0.004 of the width are found.
 constexpr double steep_samples = 192 * 192;
 
-// [1] Steep places that were found for a factor serve factors that differ by a smaller share.
-constexpr double same_steepness = 0.05;
+// [1] Steep places that were found for a factor serve a factor that is larger by this, at most: the size then is too
+// steep at more places.
+constexpr double most_steepness = 1.05;
+
+// [1] They serve a factor that is smaller by this, at most: the places then lie farther apart than they should.
+constexpr double least_steepness = 0.7;
 
 using boundary::BoundaryRefiner;
 using boundary::BoundaryRules;
@@ -88,13 +92,14 @@ void find_steep_places(const LayoutContext& context, const Stage& stage, FittedS
     steep.limits.clear();
     return;
   }
-  if (std::fabs(steep.factor - asked.factor()) > same_steepness * asked.factor()) {
+  if (asked.factor() > most_steepness * steep.factor || asked.factor() < least_steepness * steep.factor) {
     const double points = context.given_boundary.area / (row_height * stage.typical_size * stage.typical_size);
     if (!steep.sizes)
       steep.sizes = std::make_shared<sizing::SteepSizes>(context.relative_size, context.given_boundary, context.lattice,
                                                          std::fmax(steep_samples, 0.5 * points));
     sizing::SteepSizes::Limits found = steep.sizes->limits(asked, *gradation);
     steep.limits = std::move(found.limits);
+    steep.gradation = found.gradation;
     steep.steepest = found.steepest;
     steep.factor = asked.factor();
   }
@@ -112,7 +117,7 @@ void set_sizes(const LayoutContext& context, FittedSize& fitted, Stage& stage) {
     stage.lowered_size = std::make_unique<sizing::LoweredSize>(
         *stage.asked_size,
         std::initializer_list<sizing::GradedLimits>{{fitted.limits, context.narrow_gradation()},
-                                                    {fitted.steep.limits, context.options.gradation.value_or(1)}},
+                                                    {fitted.steep.limits, fitted.steep.gradation}},
         context.given_boundary.periods);
     last = stage.lowered_size.get();
   }

@@ -17,7 +17,8 @@ namespace trime::fitting {
 
 /// Where the size asked for is too steep, at one factor of the size.
 struct SteepPlaces {
-  double factor = 0; ///< 0: not looked for
+  double factor = 0;    ///< 0: not looked for
+  double gradation = 1; ///< growth from the places
   std::vector<sizing::SizeLimit> limits{};
   sizing::SteepSizes::Steepest steepest{{}, 0};
   std::shared_ptr<sizing::SteepSizes> sizes{}; ///< samples of the relative size; made when needed

@@ -60,6 +60,21 @@ struct SizingRules {
   static constexpr double front_gain = 0.5;
   /// [h] Error of the distance of a place from the edge of the steep part. Not measured.
   static constexpr double front_precision = 0.02;
+  /// [gradation] Growth of a size from the places at which it is limited. Between two places the size follows the steep
+  /// field a little longer, so this is below 1: then the growth stays within the gradation. Not measured.
+  static constexpr double limited_slope = 0.95;
+  /// [directions] A place is on the ground of a valley if the size grows too fast in this number of the eight
+  /// directions. Not measured.
+  static constexpr int valley_directions = 6;
+  /// [h] Error of the lowest size on the ground of a valley. Not measured.
+  static constexpr double valley_error = 0.03;
+  /// [h] Last step of the descent to the ground of a valley. Not measured.
+  static constexpr double last_valley_step = 1e-3;
+  /// [h] Last step of the descent to the lowest size near a place on the edge. Not measured.
+  static constexpr double last_descent = 0.07;
+  /// [h] Around a place on the edge of a steep part, other places of the edge are looked for where the size is larger
+  /// by at most this much. Not measured.
+  static constexpr double close_to_front = 2;
   /// [rounds] Largest number of steps to the edge of a steep part. Not measured.
   static constexpr int descent_rounds = 40;
 };

@@ -12,9 +12,8 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <map>
-#include <set>
-#include <tuple>
+#include <unordered_map>
+#include <utility>
 
 namespace trime::sizing {
 namespace {
@@ -75,26 +74,38 @@ public:
   bool is_full() const { return found_.size() >= Rules::most_steep_places; }
 
 private:
-  double size(Vec2 p) {
+  double size(Vec2 p) const {
     const double h = asked_.size(owner_.boundary_.periods.wrap(p));
     return is_valid_size(h) && owner_.inside(p) ? h : huge;
   }
-  double allowed(Vec2 p, double h) const;
-  bool adds(Vec2 p, double h) const {
-    return h < allowed(p, h) - Rules::front_gain * gradation_ * Rules::front_step * h;
+  double allowed(SizeLimit at) const;
+  /// Does a size lower what the places allow by more than a little?
+  bool adds(SizeLimit at) const {
+    return at.size < allowed(at) - Rules::front_gain * gradation_ * Rules::front_step * at.size;
   }
-  void descend(Vec2& p, double& h, double step);
-  void approach(Vec2& p, double& h, Vec2 high);
-  bool settle(Vec2& p, double& h);
-  void add(Vec2 p, double h);
+  void descend(SizeLimit& at, double step, double last_step) const;
+  void approach(SizeLimit& at, Vec2 high) const;
+  bool settle(SizeLimit& at) const;
+  void look_around(const SizeLimit& from, std::vector<SizeLimit>& candidates) const;
+  void add(SizeLimit at);
   void flood();
   void renew_tree();
 
   /// The cell of a place in the grid of a level, whose cells are 2^level wide.
-  using Key = std::tuple<int, std::int64_t, std::int64_t>;
-  static Key key_of(Vec2 p, int level, int dx = 0, int dy = 0) {
-    return {level, static_cast<std::int64_t>(std::floor(std::ldexp(p.x, -level))) + dx,
-            static_cast<std::int64_t>(std::floor(std::ldexp(p.y, -level))) + dy};
+  struct Key {
+    int level;
+    std::int64_t i, j;
+    bool operator==(const Key&) const = default;
+  };
+  struct Hash {
+    std::size_t operator()(const Key& key) const {
+      return mix_bits(mix_bits(static_cast<std::uint64_t>(key.i)) ^ static_cast<std::uint64_t>(key.j)) ^
+             static_cast<std::uint64_t>(key.level);
+    }
+  };
+  static Key key_of(Vec2 p, int level) {
+    return {level, static_cast<std::int64_t>(std::floor(std::ldexp(p.x, -level))),
+            static_cast<std::int64_t>(std::floor(std::ldexp(p.y, -level)))};
   }
   static int level_of(double h) { return std::ilogb(h); }
 
@@ -102,87 +113,108 @@ private:
   const ScaledSize& asked_;
   double gradation_;
   std::vector<SizeLimit> found_;
-  std::size_t followed_ = 0;                       // number of places from which the front was followed
-  std::map<Key, std::vector<std::size_t>> nearby_; // indices into found_, by the cell at the level of their size
-  std::set<Key> visited_;                          // cells in which the front was looked for
-  ConeTree tree_;                                  // of the first places
-  std::size_t in_tree_ = 0;                        // their number
+  std::size_t followed_ = 0; // number of places from which the front was followed
+  std::unordered_map<Key, std::vector<std::size_t>, Hash>
+      nearby_;              // indices into found_, by the cell at the level of their size
+  ConeTree tree_;           // of the first places
+  std::size_t in_tree_ = 0; // their number
 };
 
-/// The size at p that the places allow: all of the tree, and those nearby.
-double SteepSizes::Front::allowed(Vec2 p, double h) const {
-  double least = in_tree_ > 0 ? tree_.value(owner_.boundary_.periods.wrap(p)) : huge;
-  for (int level = level_of(h) - 1; level <= level_of(h) + 1; ++level)
-    for (int dy = -1; dy <= 1; ++dy)
-      for (int dx = -1; dx <= 1; ++dx) {
-        const auto cell = nearby_.find(key_of(p, level, dx, dy));
+/// The size at a place that the places found so far allow: all of the tree, and those nearby.
+double SteepSizes::Front::allowed(SizeLimit at) const {
+  double least = in_tree_ > 0 ? tree_.value(owner_.boundary_.periods.wrap(at.place), 2 * at.size) : huge;
+  if (least < at.size)
+    return least;
+  for (int level = level_of(at.size) - 1; level <= level_of(at.size) + 1; ++level) {
+    const Key center = key_of(at.place, level);
+    for (int dj = -1; dj <= 1; ++dj)
+      for (int di = -1; di <= 1; ++di) {
+        const auto cell = nearby_.find({level, center.i + di, center.j + dj});
         if (cell == nearby_.end())
           continue;
         for (const std::size_t k : cell->second)
-          least = std::fmin(least, found_[k].size + gradation_ * geometry::length(p - found_[k].place));
+          least = std::fmin(least, found_[k].size + gradation_ * geometry::length(at.place - found_[k].place));
       }
+  }
   return least;
 }
 
-/// Moves to smaller sizes, as long as the size falls faster than it may.
-void SteepSizes::Front::descend(Vec2& p, double& h, double step) {
-  for (int round = 0; round < Rules::descent_rounds && step > Rules::front_precision * h; ++round) {
-    Vec2 best = p;
-    double least = h - gradation_ * step;
-    for (const Vec2 direction : directions)
-      if (const Vec2 q = p + step * direction; size(q) < least) {
-        best = q;
-        least = size(q);
-      }
-    if (best == p) {
-      step *= 0.5;
+/// Moves to smaller sizes, as long as the size falls faster than it may. On the ground of a valley, where the size
+/// grows in nearly all directions, the steps become small enough to find the lowest size.
+void SteepSizes::Front::descend(SizeLimit& at, double step, double last_step) const {
+  for (int round = 0; round < Rules::descent_rounds; ++round) {
+    SizeLimit best{at.place, at.size - gradation_ * step};
+    double highest = 0;
+    int upwards = 0;
+    for (const Vec2 direction : directions) {
+      const Vec2 q = at.place + step * direction;
+      const double h = size(q);
+      if (h < best.size)
+        best = {q, h};
+      upwards += h > at.size + gradation_ * step;
+      highest = std::fmax(highest, h);
+    }
+    if (best.place != at.place) {
+      at = best;
       continue;
     }
-    p = best;
-    h = least;
+    const bool is_valley = upwards >= Rules::valley_directions && highest > (1 + Rules::valley_error) * at.size;
+    if (step < (is_valley ? Rules::last_valley_step : last_step) * at.size)
+      return;
+    step *= 0.5;
   }
 }
 
 /// Moves towards a place where the size is too large, up to where the steep part begins.
-void SteepSizes::Front::approach(Vec2& p, double& h, Vec2 high) {
-  Vec2 low = p;
-  double low_size = h;
-  for (int round = 0; round < Rules::descent_rounds && geometry::length(high - low) > Rules::front_precision * h;
+void SteepSizes::Front::approach(SizeLimit& at, Vec2 high) const {
+  SizeLimit low = at;
+  for (int round = 0;
+       round < Rules::descent_rounds && geometry::length(high - low.place) > Rules::front_precision * at.size;
        ++round) {
-    const Vec2 middle = 0.5 * (low + high);
-    const double at_middle = size(middle);
-    if (at_middle <= h + gradation_ * geometry::length(middle - p)) {
-      low = middle;
-      low_size = at_middle;
-    } else {
+    const Vec2 middle = 0.5 * (low.place + high);
+    const double h = size(middle);
+    if (h <= at.size + gradation_ * geometry::length(middle - at.place))
+      low = {middle, h};
+    else
       high = middle;
-    }
   }
-  p = low;
-  h = low_size;
+  at = low;
 }
 
 /// Moves a place near the front to it. Returns false if no steep part begins there.
-bool SteepSizes::Front::settle(Vec2& p, double& h) {
-  const double reach = Rules::front_step * h;
-  descend(p, h, 0.5 * reach);
-  double steepest = h + (1 + Rules::gentle_excess) * gradation_ * reach;
+bool SteepSizes::Front::settle(SizeLimit& at) const {
+  descend(at, 0.5 * Rules::front_step * at.size, Rules::last_descent);
+  const double reach = Rules::front_step * at.size;
+  double steepest = at.size + (1 + Rules::gentle_excess) * gradation_ * reach;
   std::optional<Vec2> high;
-  for (const Vec2 direction : directions)
-    if (const Vec2 q = p + reach * direction; size(q) < huge && size(q) > steepest) {
-      steepest = size(q);
+  for (const Vec2 direction : directions) {
+    const Vec2 q = at.place + reach * direction;
+    if (const double h = size(q); h < huge && h > steepest) {
+      steepest = h;
       high = q;
     }
+  }
   if (!high)
     return false;
-  approach(p, h, *high);
+  approach(at, *high);
   return true;
 }
 
-void SteepSizes::Front::add(Vec2 p, double h) {
-  const Vec2 place = owner_.boundary_.periods.wrap(p);
-  nearby_[key_of(place, level_of(h))].push_back(found_.size());
-  found_.push_back({place, h});
+/// Appends the places around one that may continue the front.
+void SteepSizes::Front::look_around(const SizeLimit& from, std::vector<SizeLimit>& candidates) const {
+  for (const Vec2 direction : directions) {
+    SizeLimit at{from.place + Rules::front_step * from.size * direction, 0};
+    at.size = size(at.place);
+    const bool is_close = at.size < from.size + Rules::close_to_front * from.size; // else the front lies elsewhere
+    if (is_close && (adds(at) || at.size > from.size) && settle(at) && adds(at))
+      candidates.push_back(at);
+  }
+}
+
+void SteepSizes::Front::add(SizeLimit at) {
+  at.place = owner_.boundary_.periods.wrap(at.place);
+  nearby_[key_of(at.place, level_of(at.size))].push_back(found_.size());
+  found_.push_back(at);
 }
 
 void SteepSizes::Front::renew_tree() {
@@ -192,36 +224,34 @@ void SteepSizes::Front::renew_tree() {
   in_tree_ = found_.size();
 }
 
+/// Threads look around all places of a round; candidates are judged again one by one, because those of a round may lie
+/// close together.
 void SteepSizes::Front::flood() {
-  for (; followed_ < found_.size() && !is_full(); ++followed_) {
+  while (followed_ < found_.size() && !is_full()) {
     if (found_.size() > 2 * in_tree_ + Rules::few_steep_places)
       renew_tree();
-    const SizeLimit from = found_[followed_];
-    const double reach = Rules::front_step * from.size;
-    for (const Vec2 direction : directions) {
-      Vec2 p = from.place + reach * direction;
-      if (!visited_.insert(key_of(p, level_of(0.5 * reach))).second)
-        continue;
-      double h = size(p);
-      if (h < huge && settle(p, h) && adds(p, h))
-        add(p, h);
-    }
+    const std::size_t first = std::exchange(followed_, found_.size());
+    const std::vector<SizeLimit> candidates =
+        gather_in_order<SizeLimit>(std::ssize(found_) - static_cast<std::ptrdiff_t>(first), 1,
+                                   [&](std::ptrdiff_t k, std::vector<SizeLimit>& list) {
+                                     look_around(found_[first + static_cast<std::size_t>(k)], list);
+                                   });
+    for (const SizeLimit& at : candidates)
+      if (adds(at))
+        add(at);
   }
 }
 
 void SteepSizes::Front::follow(const Seed& seed) {
-  if (is_full() || seed.size > allowed(seed.low, seed.size) * (1 - Rules::covered_error))
+  SizeLimit at{seed.low, seed.size};
+  if (is_full() || seed.size > allowed(at) * (1 - Rules::covered_error))
     return;
-  Vec2 p = seed.low;
-  double h = seed.size;
-  if (!owner_.inside(p))
+  descend(at, 0.5 * geometry::length(seed.high - seed.low), Rules::front_precision);
+  if (at.place == seed.low)
+    approach(at, seed.high);
+  if (!adds(at))
     return;
-  descend(p, h, 0.5 * geometry::length(seed.high - seed.low));
-  if (p == seed.low)
-    approach(p, h, seed.high);
-  if (!adds(p, h))
-    return;
-  add(p, h);
+  add(at);
   flood();
   renew_tree();
 }
@@ -287,14 +317,10 @@ std::vector<SteepSizes::Seed> SteepSizes::seeds(const ScaledSize& asked, double 
   });
 }
 
-bool SteepSizes::inside(Vec2 p) {
-  if (boundary_.loops.empty())
-    return boundary_.covers_torus;
-  if (boundary_.periods.any())
-    return true; // of loops that wind around the container, no segment grid knows what lies inside
-  if (!segments_)
-    segments_.emplace(chords_of(boundary_, lattice_));
-  return segments_->inside(lattice_.snap(p));
+/// @pre segments_ are made, except in a periodic container: of loops that wind around it no segment grid knows what
+/// lies inside
+bool SteepSizes::inside(Vec2 p) const {
+  return boundary_.periods.any() || segments_->inside(lattice_.snap(p));
 }
 
 SteepSizes::Limits SteepSizes::limits(const ScaledSize& asked, double gradation) {
@@ -302,9 +328,12 @@ SteepSizes::Limits SteepSizes::limits(const ScaledSize& asked, double gradation)
   Limits result;
   if (found.empty())
     return result;
+  if (!segments_ && !boundary_.periods.any())
+    segments_.emplace(chords_of(boundary_, lattice_));
   std::erase_if(found, [this](const Seed& seed) { return !inside(seed.low); });
   std::stable_sort(found.begin(), found.end(), [](const Seed& a, const Seed& b) { return a.size < b.size; });
-  Front front(*this, asked, gradation);
+  result.gradation = Rules::limited_slope * gradation;
+  Front front(*this, asked, result.gradation);
   for (const Seed& seed : found) {
     if (seed.slope > result.steepest.slope && inside(seed.high))
       result.steepest = {seed.low, seed.slope};

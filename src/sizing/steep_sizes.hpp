@@ -35,6 +35,7 @@ public:
     double slope;
   };
   struct Limits {
+    double gradation = 0;          ///< growth from these places: a little less than what is allowed
     std::vector<SizeLimit> limits; ///< places and sizes; empty if the size is nowhere too steep
     Steepest steepest{{}, 0};      ///< steepest pair of neighbouring samples in the shape
   };
@@ -52,7 +53,7 @@ private:
   class Front;
   struct Seed;
   std::vector<Seed> seeds(const ScaledSize& asked, double gradation) const;
-  bool inside(geometry::Vec2 p);
+  bool inside(geometry::Vec2 p) const;
 
   const SizeField& relative_;
   const geometry::Boundary& boundary_;

@@ -368,12 +368,46 @@ TEST(Config, KeysWithoutEffectEarnAWarning) {
   const auto warnings = [](const std::vector<std::string>& overrides) {
     return parse_config(good, "dir/c.ini", overrides).warnings;
   };
-  ASSERT_EQ(warnings({"sizing.gradation=0.2"}).size(), 1u);
-  EXPECT_EQ(warnings({"sizing.gradation=0.2"})[0], "'gradation' in [sizing] has no effect: the type is uniform, not "
-                                                   "automatic");
-  EXPECT_EQ(warnings({"sizing.expression=1+x"}).size(), 1u);
+  ASSERT_EQ(warnings({"sizing.expression=1+x"}).size(), 1u);
+  EXPECT_EQ(warnings({"sizing.expression=1+x"})[0], "'expression' in [sizing] has no effect: the type is uniform, not "
+                                                    "expression");
   EXPECT_EQ(warnings({"sizing.expression=1+x", "sizing.type=automatic"}).size(), 1u);
   EXPECT_TRUE(warnings({"sizing.gradation=0.1", "sizing.expression=none"}).empty()) << "as printed configs have them";
+}
+
+TEST(Config, GradationLimitsEveryTypeOfSize) {
+  const auto growth = [](const std::string& sizing) {
+    return parse_config(good + "[sizing]\n" + sizing, "c.ini", {}).mesh.gradation;
+  };
+  EXPECT_FALSE(growth(""));
+  EXPECT_EQ(growth("gradation = 0.15\n"), 0.15);
+  EXPECT_EQ(growth("type = automatic\n"), 0.1);
+  EXPECT_FALSE(growth("type = automatic\ngradation = 0\n")) << "uniform";
+  EXPECT_EQ(growth("type = expression\nexpression = 1+x\n"), 0.3);
+  EXPECT_EQ(growth("type = expression\nexpression = 1+x\ngradation = 0.2\n"), 0.2);
+  EXPECT_FALSE(growth("type = expression\nexpression = 1+x\ngradation = none\n"));
+  const auto problem = [](const std::string& sizing) { return errors_of(good + "[sizing]\n" + sizing); };
+  EXPECT_NE(problem("type = automatic\ngradation = none\n").find("'gradation = none' in [sizing]: expected a number"),
+            std::string::npos);
+  EXPECT_NE(problem("type = expression\nexpression = 1+x\ngradation = 0\n").find("expected a number above 0, or none"),
+            std::string::npos);
+}
+
+TEST(Config, AbsoluteSizesNeedNoNumberOfPoints) {
+  const std::string shape = "[shape]\ngeometry = disc\n[shape.disc]\ntype = circle\ncenter = 0.5 0.5\nradius = 0.3\n",
+                    absolute = shape + "[sizing]\nscale = absolute\n";
+  const RunOptions options = parse_config(absolute + "max_size = 0.1\n", "c.ini", {});
+  EXPECT_TRUE(options.mesh.absolute_sizes);
+  EXPECT_FALSE(options.mesh.points);
+  EXPECT_EQ(parse_config(absolute + "max_size = 0.1\n[meshing]\npoints = 500\n", "c.ini", {}).mesh.points, 500);
+  EXPECT_NE(
+      errors_of(absolute).find("dir/c.ini:8: 'scale = absolute' in [sizing] with 'type = uniform' needs 'max_size'"),
+      std::string::npos)
+      << errors_of(absolute);
+  EXPECT_NE(errors_of(absolute + "type = automatic\n").find("needs 'min_size'"), std::string::npos);
+  EXPECT_NE(errors_of(absolute + "max_size = 0.1\n[meshing]\nedge_length = 0.1\n")
+                .find("'edge_length' in [meshing] has no meaning with 'scale = absolute'"),
+            std::string::npos);
 }
 
 TEST(Config, OutputSaysWhichMeshesAreWritten) {

@@ -70,7 +70,7 @@ TEST(SizeLimits, EndWhereTheSizeMayNotBecomeLower) {
   std::vector<sizing::SizeLimit> limits;
   std::size_t more = 1;
   for (int round = 0; round < 4 && more > 0; ++round) {
-    const sizing::LoweredSize size(asked, limits, 0.2, boundary.periods);
+    const sizing::LoweredSize size(asked, {{limits, 0.2}}, boundary.periods);
     const auto found =
         size_limits(testing::make_boundary_sites(boundary, size, testing::unit_lattice(), 30), size, asked, 0.2);
     for (const sizing::SizeLimit& limit : found) {

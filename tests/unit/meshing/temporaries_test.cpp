@@ -29,7 +29,7 @@ static_assert(!std::is_constructible_v<ScaledSize, UniformSize, double, double, 
 
 template <class Field>
 constexpr bool lowers =
-    std::is_constructible_v<sizing::LoweredSize, Field, std::vector<sizing::SizeLimit>, double, geometry::Periods>;
+    std::is_constructible_v<sizing::LoweredSize, Field, std::initializer_list<sizing::GradedLimits>, geometry::Periods>;
 static_assert(lowers<const UniformSize&> && !lowers<UniformSize>);
 
 template <class Region, class Size>

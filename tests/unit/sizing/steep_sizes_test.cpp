@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sizing/steep_sizes.hpp"
+
+#include "support/boundary_shapes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <utility>
+
+namespace trime::sizing {
+namespace {
+
+using geometry::Vec2;
+
+class Given final : public SizeField {
+public:
+  explicit Given(std::function<double(Vec2)> function) : function_(std::move(function)) {}
+  double size(Vec2 p) const override { return function_(p); }
+
+private:
+  std::function<double(Vec2)> function_;
+};
+
+geometry::Boundary square() {
+  return testing::boundary_of({testing::polygon_loop({{0, 0}, {1, 0}, {1, 1}, {0, 1}})});
+}
+
+/// A size in the unit square, and the size after its growth was limited.
+struct Limited {
+  Given field;
+  geometry::Boundary boundary = square();
+  double gradation;
+  ScaledSize asked{field, 1};
+  SteepSizes steep{field, boundary, testing::unit_lattice(), 10000};
+  SteepSizes::Limits found = steep.limits(asked, gradation);
+  const std::vector<SizeLimit>& limits = found.limits;
+  LoweredSize lowered{asked, {{limits, found.gradation}}, {}};
+
+  Limited(std::function<double(Vec2)> function, double its_gradation)
+      : field(std::move(function)), gradation(its_gradation) {}
+};
+
+/// Expects about min over y of size(y) + gradation |x - y|, where `low` is the distance to the nearest low place.
+void expect_cone(const Limited& limited, double least, const std::function<double(Vec2)>& distance, double error) {
+  for (int k = 0; k < 400; ++k) {
+    const Vec2 p{std::fmod(0.5 + 0.618034 * k, 1), std::fmod(0.25 + 0.754878 * k, 1)};
+    const double expected = std::fmin(limited.field.size(p), least + limited.found.gradation * distance(p));
+    EXPECT_NEAR(limited.lowered.size(p) / expected, 1, error) << p.x << " " << p.y;
+  }
+}
+
+TEST(SteepSizes, GentleSizesHaveNoLimits) {
+  EXPECT_TRUE(Limited([](Vec2 p) { return 0.1 + 0.25 * p.x; }, 0.3).limits.empty());
+  EXPECT_TRUE(Limited([](Vec2 p) { return 0.1 + 0.05 * std::sin(3 * p.x + 2 * p.y); }, 0.3).limits.empty());
+}
+
+TEST(SteepSizes, AJumpBecomesACone) {
+  const Limited limited([](Vec2 p) { return p.x < 0.5 ? 0.01 : 1; }, 0.3);
+  EXPECT_GT(limited.limits.size(), 100u);
+  expect_cone(
+      limited, 0.01, [](Vec2 p) { return std::fmax(0, p.x - 0.5); }, 0.06);
+}
+
+TEST(SteepSizes, ABandFarNarrowerThanTheSamplesIsFollowed) {
+  const double half_width = 0.0008; // the samples are 0.01 apart
+  const auto distance = [&](Vec2 p) {
+    return std::fmax(0, std::fabs(std::hypot(p.x - 0.5, p.y - 0.5) - 0.3) - half_width);
+  };
+  const Limited limited([&](Vec2 p) { return distance(p) > 0 ? 1.0 : 0.004; }, 0.2);
+  expect_cone(limited, 0.004, distance, 0.12);
+}
+
+TEST(SteepSizes, AKinkIsFollowedAlongItsLowestLine) {
+  const auto distance = [](Vec2 p) { return std::fabs(p.x - 0.3 - 0.2 * p.y) / std::hypot(1, 0.2); };
+  const Limited limited([&](Vec2 p) { return 0.01 + 5 * distance(p); }, 0.3);
+  expect_cone(limited, 0.01, distance, 0.15);
+}
+
+TEST(SteepSizes, TheGrowthOfASmoothSizeIsLimited) {
+  const Limited limited([](Vec2 p) { return 0.01 * std::exp(8 * p.x); }, 0.3);
+  for (int k = 0; k < 400; ++k) {
+    const Vec2 p{0.99 * std::fmod(0.5 + 0.618034 * k, 1), std::fmod(0.25 + 0.754878 * k, 1)};
+    const double growth = (limited.lowered.size(p + Vec2{0.005, 0}) - limited.lowered.size(p)) / 0.005;
+    EXPECT_LE(growth, 0.3 * 1.02) << p.x;
+    EXPECT_LE(limited.lowered.size(p), limited.field.size(p));
+  }
+}
+
+TEST(SteepSizes, PlacesOutsideTheShapeDoNotCount) {
+  Given field([](Vec2 p) { return p.x < 0.45 ? 0.001 : 0.1; });
+  const geometry::Boundary boundary = testing::boundary_of(
+      {testing::polygon_loop({{0.5, 0}, {1, 0}, {1, 1}, {0.5, 1}, {0.5, 0.9}, {0.9, 0.5}, {0.5, 0.1}})});
+  SteepSizes steep(field, boundary, testing::unit_lattice(), 10000);
+  EXPECT_TRUE(steep.limits(ScaledSize(field, 1), 0.3).limits.empty());
+}
+
+TEST(SteepSizes, TheSameFactorScalesTheSlope) {
+  const auto size = [](Vec2 p) { return 0.1 + 0.5 * p.x; };
+  EXPECT_FALSE(Limited(size, 0.3).limits.empty());
+  Given field(size);
+  const geometry::Boundary boundary = square();
+  SteepSizes steep(field, boundary, testing::unit_lattice(), 10000);
+  EXPECT_TRUE(steep.limits(ScaledSize(field, 0.5), 0.3).limits.empty());
+}
+
+} // namespace
+} // namespace trime::sizing
