@@ -19,6 +19,8 @@ constexpr double least_share = 0.05;
 constexpr double local_share = 0.25;
 constexpr double floor_slack = 1.1; // the size changes along a facet
 constexpr double single_precision = 1e-6;
+// Gradation of the automatic size, if the config says `auto`.
+constexpr double default_gradation = 0.1;
 
 struct Range {
   double low = 0, high = 0;
@@ -33,7 +35,7 @@ struct Sizing {
     const ConfigText config(file.text("/trime_mpi/config_resolved"), "");
     const std::string type = config.value("sizing", "type");
     is_expression = type == "expression";
-    gradation = type == "uniform" ? 0 : config.number("sizing", "gradation").value_or(0);
+    gradation = type == "uniform" ? 0 : config.number("sizing", "gradation").value_or(default_gradation);
   }
 };
 
