@@ -36,7 +36,7 @@ CleanupRounds::CleanupRounds(const sites::Stage& stage, const geometry::Boundary
                              std::span<const Candidate> candidates)
     : comm_(stage.state->comm()), periods_(stage.state->grid().periods()), lattice_(lattice), size_(*stage.size),
       limits_(comm_.sum(std::int64_t{stage.state->points().owned()}), options.most_points),
-      boundary_(comm_, meshed, stage.polygon, *stage.asked_size, options.tolerance), sites_(*stage.state, boundary_),
+      boundary_(comm_, meshed, stage.polygon, stage.asked_size(), options.tolerance), sites_(*stage.state, boundary_),
       candidates_(stage.state->grid()), neighbours_(comm_) {
   for (std::unique_ptr<PatchOptimizer>& optimizer : optimizers_)
     optimizer = std::make_unique<PatchOptimizer>(stage.polygon, boundary_.curve(), lattice, PatchOptions{});

@@ -86,7 +86,7 @@ std::unique_ptr<SiteState> make_state(const LayoutContext& context, const Bounda
 /// Looks for places where the size of this factor is too steep, unless they are known for about the same factor.
 void find_steep_places(const LayoutContext& context, const Stage& stage, FittedSize& fitted) {
   const std::optional<double>& gradation = context.options.gradation;
-  const sizing::ScaledSize& asked = *stage.asked_size;
+  const sizing::ScaledSize& asked = *stage.scaled_size;
   SteepPlaces& steep = fitted.steep;
   if (!gradation || asked.factor() * context.relative_size.largest_growth() <= *gradation) {
     steep.limits.clear();
@@ -109,16 +109,19 @@ void find_steep_places(const LayoutContext& context, const Stage& stage, FittedS
 
 /// The sizes of a stage from what `fitted` says and its coarsening.
 void set_sizes(const LayoutContext& context, FittedSize& fitted, Stage& stage) {
-  stage.asked_size = std::make_unique<sizing::ScaledSize>(context.asked_size(fitted.factor));
+  using Sets = std::initializer_list<sizing::GradedLimits>;
+  const geometry::Periods& periods = context.given_boundary.periods;
+  stage.scaled_size = std::make_unique<sizing::ScaledSize>(context.asked_size(fitted.factor));
+  stage.limited_size.reset();
   stage.lowered_size.reset();
   find_steep_places(context, stage, fitted);
-  const sizing::SizeField* last = stage.asked_size.get();
-  if (!fitted.limits.empty() || !fitted.steep.limits.empty()) {
-    stage.lowered_size = std::make_unique<sizing::LoweredSize>(
-        *stage.asked_size,
-        std::initializer_list<sizing::GradedLimits>{{fitted.limits, context.narrow_gradation()},
-                                                    {fitted.steep.limits, fitted.steep.gradation}},
-        context.given_boundary.periods);
+  if (const SteepPlaces& steep = fitted.steep; !steep.limits.empty())
+    stage.limited_size =
+        std::make_unique<sizing::LoweredSize>(*stage.scaled_size, Sets{{steep.limits, steep.gradation}}, periods);
+  const sizing::SizeField* last = &stage.asked_size();
+  if (!fitted.limits.empty()) {
+    stage.lowered_size =
+        std::make_unique<sizing::LoweredSize>(*last, Sets{{fitted.limits, context.narrow_gradation()}}, periods);
     last = stage.lowered_size.get();
   }
   stage.size = std::make_unique<sizing::ScaledSize>(*last, stage.coarsening);
@@ -136,7 +139,7 @@ const geometry::Boundary& generalised_curves(const LayoutContext& context, Fitte
   CurvesAtSize& curves = fitted.curves;
   if (!generalises(context))
     return given;
-  simplify_curves(context, *stage.asked_size, fitted.factor, curves);
+  simplify_curves(context, stage.asked_size(), fitted.factor, curves);
   if (!curves.found)
     return given;
   stage.curves = {curves.found, &curves.found->boundary};
@@ -158,12 +161,12 @@ std::unique_ptr<BoundaryRefiner> make_refiner(const LayoutContext& context, std:
     return std::make_unique<BoundaryRefiner>(curves, sizes, context.lattice, context.options.features.corner_angle,
                                              context.fixed.inside(), rule, affordable);
   };
-  if (stage.size->is_uniform() || !fitted.steep.limits.empty()) // samples of a steep size would lie too far apart
+  if (stage.size->is_uniform() || stage.limited_size) // samples of a steep size would lie too far apart
     return make({*stage.size, asked});
   std::shared_ptr<const SizeSamples>& samples = stage.curves ? fitted.curves.samples : fitted.samples;
   if (!samples || !samples->serve(fitted.factor))
-    samples = std::make_shared<SizeSamples>(curves, context.relative_size, *stage.asked_size);
-  return make({*stage.size, asked, {*samples, *stage.asked_size, stage.lowered_size.get(), stage.coarsening}});
+    samples = std::make_shared<SizeSamples>(curves, context.relative_size, *stage.scaled_size);
+  return make({*stage.size, asked, {*samples, *stage.scaled_size, stage.lowered_size.get(), stage.coarsening}});
 }
 
 /// Returns the edge length of equal triangles with `expected` vertices that fill the shape, without its boundary.
@@ -180,11 +183,11 @@ Stage lay_bare(const LayoutContext& context, FittedSize& fitted, double coarseni
   stage.coarsening = coarsening;
   stage.typical_size = typical_size(context, expected);
   set_sizes(context, fitted, stage);
-  const sizing::ScaledSize asked(*stage.asked_size, coarsening);
-  share_simplified_curves(context, *stage.asked_size, fitted.factor, fitted.curves);
+  const sizing::ScaledSize asked(stage.asked_size(), coarsening);
+  share_simplified_curves(context, stage.asked_size(), fitted.factor, fitted.curves);
   stage.polygon = make_boundary_sites(context.comm, [&] {
-    if (stage.asked_size->is_uniform())
-      stage.typical_size = coarsening * sizing::checked_size(*stage.asked_size, {});
+    if (stage.asked_size().is_uniform())
+      stage.typical_size = coarsening * sizing::checked_size(stage.asked_size(), {});
     return make_refiner(context, affordable, asked, fitted, stage);
   });
   stage.fixed_inside = static_cast<GlobalId>(context.fixed.inside().size());
@@ -203,7 +206,7 @@ Stage lay_stage(const LayoutContext& context, FittedSize& fitted, double coarsen
 
 Stage lay_again(const LayoutContext& context, Stage stage, double expected) {
   const auto time = context.timers.scope("boundary");
-  if (!stage.asked_size->is_uniform())
+  if (!stage.asked_size().is_uniform())
     stage.typical_size = typical_size(context, expected);
   stage.state = make_state(context, stage.polygon, stage.typical_size);
   placing::share_by_density(stage, *stage.size, context.lattice, 1);
@@ -230,16 +233,16 @@ Stage try_boundary(const LayoutContext& context, FittedSize& fitted, double expe
 
 std::vector<sizing::SizeLimit> further_limits(const LayoutContext& context, const Stage& trial) {
   const auto time = context.timers.scope("boundary");
-  if (trial.asked_size->is_uniform() || trial.polygon.overfull)
+  if (trial.asked_size().is_uniform() || trial.polygon.overfull)
     return {};
-  return size_limits(context.comm, trial.polygon, *trial.size, *trial.asked_size, context.narrow_gradation());
+  return size_limits(context.comm, trial.polygon, *trial.size, trial.asked_size(), context.narrow_gradation());
 }
 
 bool needs_lowering(const LayoutContext& context, const Stage& laid) {
   const auto time = context.timers.scope("boundary");
   bool needed = false;
   for (const sizing::SizeLimit& limit :
-       size_limits(context.comm, laid.polygon, *laid.size, *laid.asked_size, context.narrow_gradation()))
+       size_limits(context.comm, laid.polygon, *laid.size, laid.asked_size(), context.narrow_gradation()))
     needed |= limit.size < LayoutRules::lowering_pays * laid.size->size(limit.place);
   return needed;
 }

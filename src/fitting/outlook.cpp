@@ -38,7 +38,7 @@ std::variant<Found, TooFewPoints> fitted(const LayoutContext& context, double po
       return std::move(*few);
     const sites::Stage& stage = std::get<LatticeFit>(lattice).stage;
     if (!context.options.features.refine_narrow || !fit.needs_lowering(stage))
-      return Found{stage.asked_size->size({}) / context.relative_size.size({}),
+      return Found{stage.asked_size().size({}) / context.relative_size.size({}),
                    static_cast<double>(stage.placed_first())};
     fit.lower_uniform(); // as the run does
   }

@@ -197,11 +197,11 @@ void Run::count_replicated() const {
 
 /// Collects the report on small features, and on what the user may want to change. Collective.
 void Run::report_boundary() {
-  features_ = boundary::report_features(stage_.polygon, scheme_.limits(), *stage_.asked_size);
+  features_ = boundary::report_features(stage_.polygon, scheme_.limits(), stage_.asked_size());
   comm::run_agreed(run_.comm, [this] { // this and the warnings ask the size field, which may be a user's
     boundary::report_losses(boundary_.fixed().cornered_boundary(), boundary_.curves(), stage_.simplified,
-                            stage_.polygon.dropped, *stage_.asked_size, run_.lattice, features_);
-    boundary::measure_bodies(boundary_.curves(), stage_.polygon, *stage_.asked_size, features_);
+                            stage_.polygon.dropped, stage_.asked_size(), run_.lattice, features_);
+    boundary::measure_bodies(boundary_.curves(), stage_.polygon, stage_.asked_size(), features_);
   });
   for (const PlacedText& line : describe(features_))
     run_.log.info("boundary: {}", line.formatted());
@@ -251,14 +251,14 @@ MeshResult Run::extract() {
     run_.comm.counters().add(Counter::sites_extracted, numbering.owned());
     stage_.state->release_work_space();
     result.loops = boundary_.loops(stage_.polygon);
-    extraction::Extraction made = extraction::extract_mesh(view, numbering, *stage_.asked_size);
+    extraction::Extraction made = extraction::extract_mesh(view, numbering, stage_.asked_size());
     result.quality = std::move(made.quality);
     result.mesh = std::move(made.mesh);
   }
   {
     const auto time = run_.timers.scope("certificate");
     result.checks = certificate::certify(view, numbering,
-                                         {run_.given_boundary, boundary_.curves(), *stage_.asked_size, run_.side(),
+                                         {run_.given_boundary, boundary_.curves(), stage_.asked_size(), run_.side(),
                                           stage_.simplified.coarseness, run_.options.features.within,
                                           boundary::changes_topology(features_), run_.options.features.corner_angle},
                                          result.mesh);
@@ -277,7 +277,7 @@ void Run::judge_bodies() {
   const std::vector<std::string>& names = run_.given_boundary.part_names;
   const bool warned = !body_warning(features_, names).text().empty();
   comm::run_agreed(run_.comm, [this] {
-    boundary::measure_bodies(boundary_.curves(), stage_.polygon, *stage_.asked_size, features_);
+    boundary::measure_bodies(boundary_.curves(), stage_.polygon, stage_.asked_size(), features_);
   });
   if (const PlacedText warning = body_warning(features_, names); !warned && !warning.text().empty())
     run_.log.warning("{}", warning.formatted());
@@ -300,7 +300,7 @@ void Run::tell_of_run(MeshResult& result) {
 /// Sets what was asked for and how the start met it. @pre the mesh is in the result
 void Run::tell_of_start(MeshResult& result) const {
   result.requested_points = run_.fit.points.value_or(0);
-  result.edge_length = run_.relative_size.is_uniform() ? stage_.asked_size->size({}) : stage_.typical_size;
+  result.edge_length = run_.relative_size.is_uniform() ? stage_.asked_size().size({}) : stage_.typical_size;
   result.start_reason = scheme_.reason();
   const GlobalId points = result.mesh.point_slab.total;
   result.count_reason = count_reason(points);

@@ -31,7 +31,7 @@ public:
   const Stage& stage() const { return stage_; }
   std::span<const sizing::SizeLimit> limits() const { return scheme_.limits(); }
   double factor(const LayoutContext& layout) const {
-    return layout.relative_size.is_uniform() ? stage_.asked_size->size({}) / layout.relative_size.size({})
+    return layout.relative_size.is_uniform() ? stage_.asked_size().size({}) / layout.relative_size.size({})
                                              : scheme_.factor();
   }
   bool keeps_all() const {
@@ -49,10 +49,10 @@ boundary::FeatureReport features_of(const RunContext& run, MeshedBoundary& bound
   boundary.follow(stage.curves, stage.polygon.dropped);
   boundary::FeatureReport features;
   comm::run_agreed(run.comm, [&] {
-    features = boundary::report_features(stage.polygon, limits, *stage.asked_size);
+    features = boundary::report_features(stage.polygon, limits, stage.asked_size());
     boundary::report_losses(boundary.fixed().cornered_boundary(), boundary.curves(), stage.simplified,
-                            stage.polygon.dropped, *stage.asked_size, run.lattice, features);
-    boundary::measure_bodies(boundary.curves(), stage.polygon, *stage.asked_size, features);
+                            stage.polygon.dropped, stage.asked_size(), run.lattice, features);
+    boundary::measure_bodies(boundary.curves(), stage.polygon, stage.asked_size(), features);
   });
   return features;
 }

@@ -127,7 +127,7 @@ void Snapshots::take(const sites::Stage& stage) {
   const decomposition::Numbering numbering =
       decomposition::canonical_numbering(run_.comm, shown.points(), shown.halo());
   const sites::StageView view{shown, stage.polygon, *stage.size, run_.lattice, boundary_.fixed().all()};
-  const extraction::Extraction made = extraction::extract_mesh(view, numbering, *stage.asked_size);
+  const extraction::Extraction made = extraction::extract_mesh(view, numbering, stage.asked_size());
   const std::vector<polygon::LoopSummary> loops = boundary_.loops(stage.polygon);
   observer_({triangulations_, run_.timers.total(), made.mesh, made.quality, loops});
 }

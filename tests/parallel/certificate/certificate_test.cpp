@@ -32,7 +32,7 @@ protected:
   Certificate()
       : frame(geometry::Box{{0, 0}, {1, 1}}),
         square({shape::Part::rectangle("square", {{0.2, 0.2}, {0.8, 0.8}}, frame)}, "square", frame) {
-    stage.asked_size = std::make_unique<sizing::ScaledSize>(uniform, 1);
+    stage.scaled_size = std::make_unique<sizing::ScaledSize>(uniform, 1);
     stage.size = std::make_unique<sizing::ScaledSize>(uniform, 1);
     stage.polygon = testing::make_boundary_sites(square.boundary(), uniform, unit_lattice(), 30);
     stage.guard = std::make_unique<polygon::BoundaryGuard>(stage.polygon, unit_lattice());
@@ -50,14 +50,14 @@ protected:
     const delaunay::StarBuilder builder(unit_lattice(), 1);
     stage.state->compute_stars(builder, *stage.size, sites::Wanted::all_sites);
     numbering = decomposition::canonical_numbering(comm, stage.state->points(), stage.state->halo());
-    mesh = extraction::extract_mesh(stage.view(unit_lattice()), numbering, *stage.asked_size).mesh;
+    mesh = extraction::extract_mesh(stage.view(unit_lattice()), numbering, stage.asked_size()).mesh;
   }
 
   /// Names of the checks that fail.
   std::vector<std::string> failures(const geometry::Boundary& curves) const {
     std::vector<std::string> names;
     for (const mesh::Check& check :
-         certify(stage.view(unit_lattice()), numbering, {square.boundary(), curves, *stage.asked_size, 1}, mesh))
+         certify(stage.view(unit_lattice()), numbering, {square.boundary(), curves, stage.asked_size(), 1}, mesh))
       if (!check.passed)
         names.push_back(check.name);
     return names;

@@ -41,7 +41,7 @@ private:
 /// Random sites on the torus, far from any good mesh.
 Stage torus_stage(const comm::Communicator& comm, const shape::RegionShape& torus, const sizing::SizeField& size) {
   Stage stage;
-  stage.asked_size = std::make_unique<sizing::ScaledSize>(size, 1);
+  stage.scaled_size = std::make_unique<sizing::ScaledSize>(size, 1);
   stage.size = std::make_unique<sizing::ScaledSize>(size, 1);
   stage.polygon = testing::make_boundary_sites(torus.boundary(), sizing::UniformSize(h), unit_lattice(), 30);
   stage.guard = std::make_unique<polygon::BoundaryGuard>(stage.polygon, unit_lattice());
