@@ -207,7 +207,7 @@ TEST(PeriodicMesher, APerturbedHexagonalTorusReturns) {
   const RegionShape shape({}, "domain", frame);
   const sizing::UniformSize size;
   const MeshOptions options = options_for(columns * rows, Method::hybrid);
-  const FitOptions fit = fit_options(options);
+  const FitOptions fit = fit_options(options, size);
   Log log(LogLevel::silent, false);
   TimerTable timers;
   const FixedPoints none(shape.boundary(), frame.container(), {}, frame.lattice(), log);
