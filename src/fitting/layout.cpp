@@ -84,6 +84,7 @@ std::unique_ptr<SiteState> make_state(const LayoutContext& context, const Bounda
 }
 
 /// Looks for places where the size of this factor is too steep, unless they are known for about the same factor.
+/// Collective.
 void find_steep_places(const LayoutContext& context, const Stage& stage, FittedSize& fitted) {
   const std::optional<double>& gradation = context.options.gradation;
   const sizing::ScaledSize& asked = *stage.scaled_size;
@@ -94,10 +95,13 @@ void find_steep_places(const LayoutContext& context, const Stage& stage, FittedS
   }
   if (asked.factor() > most_steepness * steep.factor || asked.factor() < least_steepness * steep.factor) {
     const double points = context.given_boundary.area / (row_height * stage.typical_size * stage.typical_size);
-    if (!steep.sizes)
-      steep.sizes = std::make_shared<sizing::SteepSizes>(context.relative_size, context.given_boundary, context.lattice,
-                                                         std::fmax(steep_samples, 0.5 * points));
-    sizing::SteepSizes::Limits found = steep.sizes->limits(asked, *gradation);
+    sizing::SteepSizes::Limits found;
+    comm::run_agreed(context.comm, [&] { // a size of the user may throw on one rank
+      if (!steep.sizes)
+        steep.sizes = std::make_shared<sizing::SteepSizes>(context.relative_size, context.given_boundary,
+                                                           context.lattice, std::fmax(steep_samples, 0.5 * points));
+      found = steep.sizes->limits(asked, *gradation);
+    });
     steep.limits = std::move(found.limits);
     steep.gradation = found.gradation;
     steep.steepest = found.steepest;
@@ -107,7 +111,7 @@ void find_steep_places(const LayoutContext& context, const Stage& stage, FittedS
     limit.size = asked.size(limit.place);
 }
 
-/// The sizes of a stage from what `fitted` says and its coarsening.
+/// The sizes of a stage from what `fitted` says and its coarsening. Collective.
 void set_sizes(const LayoutContext& context, FittedSize& fitted, Stage& stage) {
   using Sets = std::initializer_list<sizing::GradedLimits>;
   const geometry::Periods& periods = context.given_boundary.periods;

@@ -63,7 +63,7 @@ bool needs_lowering(const LayoutContext& context, const sites::Stage& laid);
 /// will hold no points
 void complete(const LayoutContext& context, sites::Stage& trial, double grid_coarsening = 1);
 
-/// @brief Multiplies the size of a stage by a number so close to 1 that its sites may stay where they are. Local.
+/// @brief Multiplies the size of a stage by a number so close to 1 that its sites may stay where they are. Collective.
 void rescale(const LayoutContext& context, FittedSize& fitted, sites::Stage& laid, double scale);
 
 /// Adds boundary sites and fixed points to the inner sites, which may lie on any rank; removes inner sites too near to

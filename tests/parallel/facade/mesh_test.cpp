@@ -127,6 +127,25 @@ TEST(Facade, SizesByAFunctionAndAutomatically) {
   EXPECT_EQ(automatic.hash(), make_mesh(MPI_COMM_SELF, plate(), sizes::automatic(0.2), options).hash());
 }
 
+TEST(Facade, AbsoluteSizesAreLengths) {
+  const Size size([](Vec2 p) { return 0.02 + 0.05 * p.x; });
+  const Mesh mesh = make_mesh(MPI_COMM_WORLD, plate(), size, {.absolute_sizes = true});
+  EXPECT_TRUE(mesh.certified());
+  EXPECT_NEAR(mesh.quality().size_mean, 1, 0.03) << "mean of the edge length over the size";
+  const Mesh uniform = make_mesh(MPI_COMM_WORLD, plate(), {.absolute_sizes = true, .max_size = 0.03});
+  EXPECT_EQ(uniform.hash(), make_mesh(MPI_COMM_WORLD, plate(), {.edge_length = 0.03}).hash());
+}
+
+TEST(Facade, SteepFunctionsAreLimitedUnlessTheyAreAskedFor) {
+  const Size jump([](Vec2 p) { return p.x < 0.5 ? 0.05 : 1; });
+  const Mesh limited = make_mesh(MPI_COMM_WORLD, plate(), jump, {.points = 2000});
+  EXPECT_TRUE(limited.certified());
+  EXPECT_LT(limited.quality().alpha.max, 1.6);
+  const double none = std::numeric_limits<double>::infinity();
+  const Mesh raw = make_mesh(MPI_COMM_WORLD, plate(), jump, {.points = 2000, .gradation = none, .worst_alpha = 1e9});
+  EXPECT_GT(raw.quality().alpha.max, limited.quality().alpha.max);
+}
+
 TEST(Facade, AllKindsOfParts) {
   const auto disc = [](Vec2 p) { return std::hypot(p.x - 3, p.y - 0.5) - 0.5; };
   const Shape shape =
@@ -246,6 +265,30 @@ TEST(FacadeErrors, SizesThatFailOnOneRank) {
   expect_in("the size function failed at (", message);
   expect_in("beyond my table", message);
   expect_in("gradation", error_of<ConfigError>(mesh_with(sizes::automatic(-1))));
+}
+
+TEST(FacadeErrors, AbsoluteSizes) {
+  const auto mesh_with = [](const Size& size, const MeshOptions& options) {
+    return [=] { make_mesh(MPI_COMM_WORLD, plate(), size, options); };
+  };
+  const Size function([](Vec2) { return 0.02; });
+  expect_in("points = 100 is the limit",
+            error_of<ConfigError>(mesh_with(function, {.points = 100, .absolute_sizes = true})));
+  expect_in("expected no edge length with absolute_sizes",
+            error_of<ConfigError>(mesh_with(function, {.edge_length = 0.1, .absolute_sizes = true})));
+  expect_in("max_size: expected the length of the edges",
+            error_of<ConfigError>(mesh_with(sizes::uniform(), {.absolute_sizes = true})));
+  expect_in("min_size: expected a length",
+            error_of<ConfigError>(mesh_with(sizes::automatic(), {.absolute_sizes = true})));
+  expect_in("gradation: expected a number above 0",
+            error_of<ConfigError>(mesh_with(function, {.points = 100, .gradation = 0})));
+  const bool fails = rank_of(MPI_COMM_WORLD) == comm::Communicator::world().size() - 1;
+  const Size late([=](Vec2 p) { // fails at few places, so that the first search for steep places meets them
+    if (fails && std::hypot(p.x - 0.31, p.y - 0.52) < 0.01)
+      throw std::out_of_range("beyond my table");
+    return 0.02;
+  });
+  expect_in("beyond my table", error_of<GeometryError>(mesh_with(late, {.absolute_sizes = true})));
 }
 
 TEST(FacadeErrors, UnknownBoundaryNames) {
