@@ -95,13 +95,10 @@ void find_steep_places(const LayoutContext& context, const Stage& stage, FittedS
   }
   if (asked.factor() > most_steepness * steep.factor || asked.factor() < least_steepness * steep.factor) {
     const double points = context.given_boundary.area / (row_height * stage.typical_size * stage.typical_size);
-    sizing::SteepSizes::Limits found;
-    comm::run_agreed(context.comm, [&] { // a size of the user may throw on one rank
-      if (!steep.sizes)
-        steep.sizes = std::make_shared<sizing::SteepSizes>(context.relative_size, context.given_boundary,
-                                                           context.lattice, std::fmax(steep_samples, 0.5 * points));
-      found = steep.sizes->limits(asked, *gradation);
-    });
+    if (!steep.sizes)
+      steep.sizes = std::make_shared<sizing::SteepSizes>(context.comm, context.relative_size, context.given_boundary,
+                                                         context.lattice, std::fmax(steep_samples, 0.5 * points));
+    sizing::SteepSizes::Limits found = steep.sizes->limits(asked, *gradation);
     steep.limits = std::move(found.limits);
     steep.gradation = found.gradation;
     steep.steepest = found.steepest;

@@ -41,9 +41,9 @@ struct SizingRules {
   /// [samples] Largest number of samples in which steep places are looked for. Not measured.
   static constexpr double most_steep_samples = 1 << 20;
   /// [cells] Smallest number of cells with a sample along a side of the box around the shape. Not measured.
-  static constexpr int least_steep_cells = 8;
+  static constexpr double least_steep_cells = 8;
   /// [cells] Largest number of cells with a sample along a side of the box around the shape. Not measured.
-  static constexpr int most_steep_cells = 1 << 14;
+  static constexpr double most_steep_cells = 1 << 14;
   /// [places] Largest number of places from which the growth of a size is limited. Not measured.
   static constexpr std::size_t most_steep_places = std::size_t{1} << 17;
   /// [places] A tree over the places is not renewed for fewer new ones. Not measured.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sizing/steep_sizes.hpp"
 
+#include "comm/agree.hpp"
 #include "cones/cone_tree.hpp"
 #include "core/angle.hpp"
 #include "core/random.hpp"
@@ -54,13 +55,6 @@ std::vector<geometry::Segment> chords_of(const geometry::Boundary& boundary, con
 }
 
 } // namespace
-
-/// A sample from which the size grows too fast towards a neighbouring sample.
-struct SteepSizes::Seed {
-  Vec2 low, high;
-  double size;  // at `low`
-  double slope; // of the size between both places
-};
 
 /// The places that were found so far, and the size that they allow.
 class SteepSizes::Front {
@@ -256,90 +250,110 @@ void SteepSizes::Front::follow(const Seed& seed) {
   renew_tree();
 }
 
-SteepSizes::SteepSizes(const SizeField& relative, const geometry::Boundary& boundary, const geometry::Lattice& lattice,
-                       double samples)
-    : relative_(relative), boundary_(boundary), lattice_(lattice) {
-  geometry::Box box = boundary.bounding_box();
+SteepSizes::SteepSizes(const comm::Communicator& comm, const SizeField& relative, const geometry::Boundary& boundary,
+                       const geometry::Lattice& lattice, double samples)
+    : comm_(comm), relative_(relative), boundary_(boundary), lattice_(lattice), box_(boundary.bounding_box()) {
   const geometry::Periods& periods = boundary.periods;
-  if (periods.x > 0)
-    box = {{periods.min.x, box.min.y}, {periods.min.x + periods.x, box.max.y}};
-  if (periods.y > 0)
-    box = {{box.min.x, periods.min.y}, {box.max.x, periods.min.y + periods.y}};
-  const double side = std::sqrt(box.width() * box.height() / std::fmin(samples, Rules::most_steep_samples));
+  if (periods.x > 0) {
+    box_.min.x = periods.min.x;
+    box_.max.x = periods.min.x + periods.x;
+  }
+  if (periods.y > 0) {
+    box_.min.y = periods.min.y;
+    box_.max.y = periods.min.y + periods.y;
+  }
+  const double side = std::sqrt(box_.width() * box_.height() / std::fmin(samples, Rules::most_steep_samples));
   const auto cells = [&](double length) {
-    return std::clamp(static_cast<int>(std::ceil(length / side)), Rules::least_steep_cells, Rules::most_steep_cells);
+    return static_cast<int>(std::clamp(std::ceil(length / side), Rules::least_steep_cells, Rules::most_steep_cells));
   };
-  columns_ = cells(box.width());
-  rows_ = cells(box.height());
-  const Vec2 stride{box.width() / columns_, box.height() / rows_};
-  samples_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
-  thread_loop(rows_, 1, [&](std::ptrdiff_t j, int) {
-    for (int i = 0; i < columns_; ++i) {
-      const auto k = static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(i);
-      const auto random = [&](std::uint64_t slot) { return random_unit(0, RandomPurpose::size_sample, k, slot); };
-      const Vec2 p{box.min.x + stride.x * (i + random(0)), box.min.y + stride.y * (static_cast<double>(j) + random(1))};
-      samples_[k] = {p, relative.size(periods.wrap(p))};
-    }
+  columns_ = cells(box_.width());
+  rows_ = cells(box_.height());
+  first_row_ = std::max(0, static_cast<int>(std::int64_t{rows_} * comm.rank() / comm.size()) - 1);
+  last_row_ = std::min(rows_, static_cast<int>(std::int64_t{rows_} * (comm.rank() + 1) / comm.size()) + 1);
+  samples_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(last_row_ - first_row_));
+  comm::run_agreed(comm, [this] {
+    thread_loop(last_row_ - first_row_, 1, [this](std::ptrdiff_t row, int) {
+      for (int i = 0; i < columns_; ++i)
+        samples_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(i)] =
+            sample(i, first_row_ + static_cast<int>(row));
+    });
   });
 }
 
-/// The lower samples of steep pairs of neighbours, with the steepest partner of each.
-std::vector<SteepSizes::Seed> SteepSizes::seeds(const ScaledSize& asked, double gradation) const {
-  const auto look_at = [&](int i, int j, std::vector<Seed>& list) {
-    const auto at = [&](int column, int row) {
-      return samples_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-                      static_cast<std::size_t>(column)];
-    };
-    const Sample low = at(i, j);
-    if (!is_valid_size(low.relative))
-      return;
-    const double h = asked.scaled(low.relative);
-    Seed seed{low.place, {}, h, (1 + Rules::gentle_excess) * gradation};
-    bool found = false;
-    for (int row = std::max(0, j - 1); row <= std::min(rows_ - 1, j + 1); ++row)
-      for (int column = std::max(0, i - 1); column <= std::min(columns_ - 1, i + 1); ++column) {
-        const Sample high = at(column, row);
-        if (!(high.relative > low.relative) || !is_valid_size(high.relative))
-          continue;
-        const double slope = (asked.scaled(high.relative) - h) / geometry::length(high.place - low.place);
-        if (slope > seed.slope) {
-          seed.high = high.place;
-          seed.slope = slope;
-          found = true;
-        }
+/// Evaluates the field at a random place in a cell.
+SteepSizes::Sample SteepSizes::sample(int i, int j) const {
+  const std::uint64_t cell =
+      static_cast<std::uint64_t>(j) * static_cast<std::uint64_t>(columns_) + static_cast<std::uint64_t>(i);
+  const auto random = [&](std::uint64_t slot) { return random_unit(0, RandomPurpose::size_sample, cell, slot); };
+  const Vec2 p{box_.min.x + box_.width() / columns_ * (i + random(0)),
+               box_.min.y + box_.height() / rows_ * (j + random(1))};
+  return {p, relative_.size(boundary_.periods.wrap(p))};
+}
+
+/// The lower sample of a steep pair of neighbours with its steepest partner. Nothing if another neighbour lowers the
+/// size of this sample: then the edge of the steep part lies there.
+std::optional<SteepSizes::Seed> SteepSizes::seed_at(int i, int j, const ScaledSize& asked, double gradation) const {
+  const auto at = [&](int column, int row) -> const Sample& {
+    return samples_[static_cast<std::size_t>(row - first_row_) * static_cast<std::size_t>(columns_) +
+                    static_cast<std::size_t>(column)];
+  };
+  const Sample& low = at(i, j);
+  if (!is_valid_size(low.relative))
+    return std::nullopt;
+  const double h = asked.scaled(low.relative);
+  Seed seed{low.place, {}, h, (1 + Rules::gentle_excess) * gradation};
+  bool found = false;
+  for (int row = std::max(0, j - 1); row <= std::min(rows_ - 1, j + 1); ++row)
+    for (int column = std::max(0, i - 1); column <= std::min(columns_ - 1, i + 1); ++column) {
+      const Sample& other = at(column, row);
+      if (!is_valid_size(other.relative) || other.relative == low.relative)
+        continue;
+      const double slope = (asked.scaled(other.relative) - h) / geometry::length(other.place - low.place);
+      if (slope < -(1 + Rules::gentle_excess) * gradation && inside(other.place))
+        return std::nullopt;
+      if (slope > seed.slope) {
+        seed.high = other.place;
+        seed.slope = slope;
+        found = true;
       }
-    if (found)
-      list.push_back(seed);
-  };
-  return gather_in_order<Seed>(rows_, 1, [&](std::ptrdiff_t j, std::vector<Seed>& list) {
+    }
+  return found && inside(low.place) ? std::optional(seed) : std::nullopt;
+}
+
+/// All seeds of all ranks.
+std::vector<SteepSizes::Seed> SteepSizes::seeds(const ScaledSize& asked, double gradation) const {
+  return comm::gather_shared<Seed>(comm_, rows_, 1, [&](std::ptrdiff_t j, std::vector<Seed>& list) {
     for (int i = 0; i < columns_; ++i)
-      look_at(i, static_cast<int>(j), list);
+      if (const std::optional<Seed> seed = seed_at(i, static_cast<int>(j), asked, gradation))
+        list.push_back(*seed);
   });
 }
 
-/// @pre segments_ are made, except in a periodic container: of loops that wind around it no segment grid knows what
-/// lies inside
+/// Local. Without a segment grid everything counts as inside.
 bool SteepSizes::inside(Vec2 p) const {
-  return boundary_.periods.any() || segments_->inside(lattice_.snap(p));
+  return !segments_ || segments_->inside(lattice_.snap(p));
 }
 
 SteepSizes::Limits SteepSizes::limits(const ScaledSize& asked, double gradation) {
   std::vector<Seed> found = seeds(asked, gradation);
   Limits result;
+  if (!found.empty() && !segments_ && !boundary_.periods.any()) { // of loops that wind around, no grid knows the inside
+    segments_.emplace(chords_of(boundary_, lattice_));
+    found = seeds(asked, gradation);
+  }
   if (found.empty())
     return result;
-  if (!segments_ && !boundary_.periods.any())
-    segments_.emplace(chords_of(boundary_, lattice_));
-  std::erase_if(found, [this](const Seed& seed) { return !inside(seed.low); });
-  std::stable_sort(found.begin(), found.end(), [](const Seed& a, const Seed& b) { return a.size < b.size; });
   result.gradation = Rules::limited_slope * gradation;
-  Front front(*this, asked, result.gradation);
-  for (const Seed& seed : found) {
-    if (seed.slope > result.steepest.slope && inside(seed.high))
-      result.steepest = {seed.low, seed.slope};
-    front.follow(seed);
-  }
-  result.limits = front.take();
+  comm::run_agreed(comm_, [&] { // the same on all ranks; a size of the user may throw on one of them
+    std::stable_sort(found.begin(), found.end(), [](const Seed& a, const Seed& b) { return a.size < b.size; });
+    Front front(*this, asked, result.gradation);
+    for (const Seed& seed : found) {
+      if (seed.slope > result.steepest.slope && inside(seed.high))
+        result.steepest = {seed.low, seed.slope};
+      front.follow(seed);
+    }
+    result.limits = front.take();
+  });
   return result;
 }
 

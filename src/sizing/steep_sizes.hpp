@@ -3,6 +3,7 @@
 #pragma once
 
 #include "sizing/lowered_size.hpp"
+#include "trime/comm/communicator.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/geometry/lattice.hpp"
 #include "trime/geometry/segment_grid.hpp"
@@ -22,12 +23,14 @@ namespace trime::sizing {
 /// functions for implicit geometries and PDE-based gradient limiting", 2006, solves the same problem on a whole grid.)
 class SteepSizes {
 public:
-  /// Samples the field. Uses all threads. Cost: one evaluation of the field for each sample.
+  /// Samples the field; ranks and threads share the work. Cost: one evaluation of the field for each sample.
+  /// Collective.
   /// @param relative the field; invalid sizes are skipped, as they may lie outside of the shape
   /// @param samples about the number of samples, in the box around the boundary
-  /// @pre `relative` and `boundary` outlive this object
-  SteepSizes(const SizeField& relative, const geometry::Boundary& boundary, const geometry::Lattice& lattice,
-             double samples);
+  /// @throws what the field throws, on all ranks together
+  /// @pre all references outlive this object
+  SteepSizes(const comm::Communicator& comm, const SizeField& relative, const geometry::Boundary& boundary,
+             const geometry::Lattice& lattice, double samples);
 
   /// A place from which the size must be limited, and how steep the size is there.
   struct Steepest {
@@ -39,9 +42,10 @@ public:
     std::vector<SizeLimit> limits; ///< places and sizes; empty if the size is nowhere too steep
     Steepest steepest{{}, 0};      ///< steepest pair of neighbouring samples in the shape
   };
-  /// @brief Returns the limits for a size. Local; the same bits for any number of threads. Cost: about 200 evaluations
-  /// of the field for each limit; there is about one limit for each 0.35 h along the edges of steep parts, and at most
-  /// SizingRules::most_steep_places.
+  /// @brief Returns the limits for a size; the same bits for any number of ranks and threads. Collective. Cost: about
+  /// 200 evaluations of the field for each limit; there is about one limit for each 0.35 h along the edges of steep
+  /// parts, and at most SizingRules::most_steep_places. Each rank follows all edges.
+  /// @throws what the field throws, on all ranks together
   /// @param asked the field times a factor
   Limits limits(const ScaledSize& asked, double gradation);
 
@@ -51,16 +55,26 @@ private:
     double relative;
   };
   class Front;
-  struct Seed;
+  /// A sample from which the size grows too fast towards a neighbouring sample.
+  struct Seed {
+    geometry::Vec2 low, high;
+    double size;  ///< at `low`
+    double slope; ///< of the size between both places
+  };
+  Sample sample(int i, int j) const;
+  std::optional<Seed> seed_at(int i, int j, const ScaledSize& asked, double gradation) const;
   std::vector<Seed> seeds(const ScaledSize& asked, double gradation) const;
   bool inside(geometry::Vec2 p) const;
 
+  const comm::Communicator& comm_;
   const SizeField& relative_;
   const geometry::Boundary& boundary_;
   const geometry::Lattice& lattice_;
   int columns_ = 0, rows_ = 0;
-  std::vector<Sample> samples_;                     // row by row
-  std::optional<geometry::SegmentGrid> segments_{}; // of the boundary, made when needed
+  geometry::Box box_;
+  int first_row_ = 0, last_row_ = 0;                // the rows of this rank, and one more on each side
+  std::vector<Sample> samples_;                     // of these rows, row by row
+  std::optional<geometry::SegmentGrid> segments_{}; // of the boundary; made when a steep place was found
 };
 
 } // namespace trime::sizing

@@ -2,6 +2,7 @@
 #include "sizing/steep_sizes.hpp"
 
 #include "support/boundary_shapes.hpp"
+#include "trime/core/error.hpp"
 
 #include <gtest/gtest.h>
 
@@ -29,11 +30,12 @@ geometry::Boundary square() {
 
 /// A size in the unit square, and the size after its growth was limited.
 struct Limited {
+  comm::Communicator world = comm::Communicator::world();
   Given field;
   geometry::Boundary boundary = square();
   double gradation;
   ScaledSize asked{field, 1};
-  SteepSizes steep{field, boundary, testing::unit_lattice(), 10000};
+  SteepSizes steep{world, field, boundary, testing::unit_lattice(), 10000};
   SteepSizes::Limits found = steep.limits(asked, gradation);
   const std::vector<SizeLimit>& limits = found.limits;
   LoweredSize lowered{asked, {{limits, found.gradation}}, {}};
@@ -92,8 +94,37 @@ TEST(SteepSizes, PlacesOutsideTheShapeDoNotCount) {
   Given field([](Vec2 p) { return p.x < 0.45 ? 0.001 : 0.1; });
   const geometry::Boundary boundary = testing::boundary_of(
       {testing::polygon_loop({{0.5, 0}, {1, 0}, {1, 1}, {0.5, 1}, {0.5, 0.9}, {0.9, 0.5}, {0.5, 0.1}})});
-  SteepSizes steep(field, boundary, testing::unit_lattice(), 10000);
+  const comm::Communicator world = comm::Communicator::world();
+  SteepSizes steep(world, field, boundary, testing::unit_lattice(), 10000);
   EXPECT_TRUE(steep.limits(ScaledSize(field, 1), 0.3).limits.empty());
+}
+
+TEST(SteepSizes, AllRanksFindTheSameLimits) {
+  const auto size = [](Vec2 p) { return std::fabs(p.x - p.y * p.y) < 0.003 ? 0.01 : 1; };
+  Given field(size);
+  const geometry::Boundary boundary = square();
+  const comm::Communicator world = comm::Communicator::world(), self = comm::Communicator::self();
+  SteepSizes shared(world, field, boundary, testing::unit_lattice(), 10000),
+      alone(self, field, boundary, testing::unit_lattice(), 10000);
+  const ScaledSize asked(field, 1);
+  const std::vector<SizeLimit> found = shared.limits(asked, 0.3).limits, expected = alone.limits(asked, 0.3).limits;
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    EXPECT_EQ(found[k].place, expected[k].place);
+    EXPECT_EQ(found[k].size, expected[k].size);
+  }
+}
+
+TEST(SteepSizes, ASizeThatThrowsOnOneRankThrowsOnAll) {
+  const comm::Communicator world = comm::Communicator::world();
+  const bool throws = world.rank() == world.size() - 1;
+  Given field([=](Vec2 p) -> double {
+    if (throws && p.x > 0.9)
+      throw GeometryError("no value");
+    return 1;
+  });
+  const geometry::Boundary boundary = square();
+  EXPECT_THROW(SteepSizes(world, field, boundary, testing::unit_lattice(), 10000), GeometryError);
 }
 
 TEST(SteepSizes, TheSameFactorScalesTheSlope) {
@@ -101,7 +132,8 @@ TEST(SteepSizes, TheSameFactorScalesTheSlope) {
   EXPECT_FALSE(Limited(size, 0.3).limits.empty());
   Given field(size);
   const geometry::Boundary boundary = square();
-  SteepSizes steep(field, boundary, testing::unit_lattice(), 10000);
+  const comm::Communicator world = comm::Communicator::world();
+  SteepSizes steep(world, field, boundary, testing::unit_lattice(), 10000);
   EXPECT_TRUE(steep.limits(ScaledSize(field, 0.5), 0.3).limits.empty());
 }
 
