@@ -34,6 +34,13 @@ void read_expression(const Settings& settings, SizingOptions& sizing, Diagnostic
 void read_bounds(const Settings& settings, meshing::MeshOptions& mesh, Diagnostics& problems) {
   mesh.min_size = settings.optional_number("sizing", "min_size");
   mesh.max_size = settings.optional_number("sizing", "max_size");
+  mesh.shortest_edge = settings.optional_number("sizing", "shortest_edge");
+  if (mesh.shortest_edge && mesh.max_size && *mesh.shortest_edge > *mesh.max_size)
+    problems.add(
+        settings.later_line("sizing", "shortest_edge", "max_size"),
+        fmt::format("[sizing] needs shortest_edge <= max_size, found {} and {}: edges are about as long as the "
+                    "size",
+                    *mesh.shortest_edge, *mesh.max_size));
   if (mesh.min_size && mesh.max_size && *mesh.min_size > *mesh.max_size)
     problems.add(settings.later_line("sizing", "min_size", "max_size"),
                  fmt::format("[sizing] needs min_size <= max_size, found {} and {}", *mesh.min_size, *mesh.max_size));

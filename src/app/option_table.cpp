@@ -177,6 +177,13 @@ const Option table[] = {
      .choices = "none",
      .range = positive,
      .meaning = "upper bound of the size, a length in the unit of the coordinates, as is `edge_length`"},
+    {.section = "sizing",
+     .key = "shortest_edge",
+     .fallback = "none",
+     .choices = "none",
+     .range = positive,
+     .meaning = "the mesh must have no shorter edge: sizes are not lowered below what this takes, and a mesh with a "
+                "shorter edge ends with exit code 5"},
 
     {.section = "meshing",
      .key = "method",

@@ -78,7 +78,12 @@ std::string quality_text(const mesh::QualitySummary& q) {
   text += fmt::format("  smallest angle {:.2f} degrees; worst triangle at {}\n", q.min_angle_degrees,
                       Place(q.worst_place, 10));
   text += fmt::format("  shortest edge {:.6g} at {}\n", q.shortest_edge, Place(q.shortest_place, 10));
-  text += fmt::format("  edge length over wanted length: mean {:.4f}, std {:.4f}\n", q.size_mean, q.size_std);
+  text += fmt::format("  edge length over wanted length: mean {:.4f}, std {:.4f}, largest {:.4g} at {}\n", q.size_mean,
+                      q.size_std, q.longest_over_size, Place(q.longest_place, 10));
+  if (q.growth.largest > 0)
+    text +=
+        fmt::format("  growth of the size per length: 90 % of the edges {:.3g}, 99 % {:.3g}, largest {:.3g} at {}\n",
+                    q.growth.of_90_percent, q.growth.of_99_percent, q.growth.largest, Place(q.growth.place, 10));
   std::int64_t count = 0;
   for (const std::int64_t bin : q.alpha_histogram)
     count += bin;

@@ -44,11 +44,15 @@ std::string mesh_text(const meshing::MeshResult& result) {
   return text;
 }
 
-std::string size_text(const SizeSummary& size) {
+std::string size_text(const SizeSummary& size, const mesh::GrowthSummary& growth) {
   const std::string lengths = size.smallest == size.largest
                                   ? fmt::format("{:.6g}", size.largest)
                                   : fmt::format("from {:.6g} to {:.6g}", size.smallest, size.largest);
-  return fmt::format("{}; target edge length {}", size.description, lengths);
+  std::string text = fmt::format("{}; target edge length {}", size.description, lengths);
+  if (growth.largest > 0)
+    text += fmt::format(", which grows by {:.3g} per length (99 % of the edges; at most {:.3g})", growth.of_99_percent,
+                        growth.largest);
+  return text;
 }
 
 std::string quality_text(const mesh::QualitySummary& q) {
@@ -150,16 +154,16 @@ std::vector<std::int64_t> edges_of_parts(const mesh::DistributedMesh& mesh, std:
 std::string run_summary(const RunFacts& facts) {
   const meshing::MeshResult& result = facts.result;
   const int sweeps = result.history.empty() ? 0 : result.history.back().sweep;
-  std::string text = line("Run", start_text(facts.provenance)) + line("Shape", shape_text(facts.provenance)) +
-                     line("Mesh", mesh_text(result)) + line("Size", size_text(facts.size)) +
-                     line("Quality", quality_text(result.quality)) +
-                     line("Shortest", shortest_text(result.quality, facts.provenance)) +
-                     line("Boundary", boundary_text(result.features)) +
-                     line("Names", names_text(facts.provenance.boundary, facts.part_edges)) +
-                     line("Sweeps", fmt::format("{}: {}", sweeps, sweep::to_string(result.stop_reason))) +
-                     line("Checks", checks_text(result.checks)) +
-                     line("Mesh hash", fmt::format("{:016x}", result.mesh.hash)) +
-                     line("Time", time_text(facts.measured)) + line("Files", files_text(facts.files));
+  std::string text =
+      line("Run", start_text(facts.provenance)) + line("Shape", shape_text(facts.provenance)) +
+      line("Mesh", mesh_text(result)) + line("Size", size_text(facts.size, facts.result.quality.growth)) +
+      line("Quality", quality_text(result.quality)) +
+      line("Shortest", shortest_text(result.quality, facts.provenance)) +
+      line("Boundary", boundary_text(result.features)) +
+      line("Names", names_text(facts.provenance.boundary, facts.part_edges)) +
+      line("Sweeps", fmt::format("{}: {}", sweeps, sweep::to_string(result.stop_reason))) +
+      line("Checks", checks_text(result.checks)) + line("Mesh hash", fmt::format("{:016x}", result.mesh.hash)) +
+      line("Time", time_text(facts.measured)) + line("Files", files_text(facts.files));
   if (!facts.files.paths.empty())
     text += line("More", fmt::format("'trime_mpi info {0}' prints all numbers, 'plot_mesh.py {0}' draws the mesh",
                                      facts.files.paths[0]));

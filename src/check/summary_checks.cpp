@@ -155,12 +155,13 @@ std::map<std::string, double> numbers_here(const Mesh& mesh, const Counted& coun
 
 /// Does a check of the file hold by its own two numbers?
 bool holds(const std::string& name, double expected, double found) {
-  // The checks with a largest value. turns_kept has a smallest one; for all others both numbers are equal.
-  const std::array<std::string, 7> limits{"vertex_distance", "generalisation", "chord_deviation", "arc_deviation",
-                                          "area_residual",   "worst_alpha",    "lost_area"};
+  // The checks with a largest value. turns_kept and shortest_edge have a smallest one; for all others both numbers are
+  // equal.
+  const std::array<std::string, 8> limits{"vertex_distance", "generalisation", "chord_deviation", "arc_deviation",
+                                          "area_residual",   "worst_alpha",    "lost_area",       "longest_edge"};
   if (std::ranges::find(limits, name) != limits.end())
     return found <= expected;
-  return name == "turns_kept" ? found >= expected : found == expected;
+  return name == "turns_kept" || name == "shortest_edge" ? found >= expected : found == expected;
 }
 
 /// Notes the lines of the file's table of checks that are not what is found here. Returns the least value in the column

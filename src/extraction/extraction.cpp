@@ -4,6 +4,7 @@
 #include "comm/agree.hpp"
 #include "core/thread_loop.hpp"
 #include "extraction/mesh_quality.hpp"
+#include "extraction/rules.hpp"
 
 #include <algorithm>
 #include <array>
@@ -129,7 +130,7 @@ private:
       list_triangles(vertex, points_.position(site), fan, meter, next, mesh);
       for (std::size_t k = 0; k < fan.edges; ++k)
         if (fan.place[k] > vertex)
-          meter.add_edge(points_.position(site), fan.positions[k]);
+          meter.add_edge(points_.position(site), fan.positions[k], static_cast<double>(mesh.size[at(vertex)]));
       if (!fan.closed && fan.complete)
         list_facets(vertex, site, fan, next, mesh);
     }
@@ -195,6 +196,18 @@ mesh::Check worst_alpha_check(const mesh::QualitySummary& quality, double most) 
   const double found = std::max(1.0, quality.worst_away.alpha);
   return {"worst_alpha", most, found, found <= most,
           "largest alpha above 2 of a triangle away from sharp corners, else 1; at most meshing.worst_alpha"};
+}
+
+mesh::Check longest_edge_check(const mesh::QualitySummary& quality) {
+  const double most = ExtractionRules::longest_edge, found = quality.longest_over_size;
+  return {"longest_edge", most, found, found <= most,
+          "largest length of an edge over h at its middle (at most); a larger one has missed a place with small sizes"};
+}
+
+mesh::Check shortest_edge_check(const mesh::QualitySummary& quality, double least) {
+  const double found = quality.shortest_edge;
+  return {"shortest_edge", least, found, found >= least,
+          "length of the shortest edge: at least shortest_edge in [sizing]"};
 }
 
 Extraction extract_mesh(const StageView& view, const decomposition::Numbering& numbering,

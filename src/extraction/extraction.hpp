@@ -24,4 +24,11 @@ Extraction extract_mesh(const sites::StageView& view, const decomposition::Numbe
 /// Checks that no triangle has an alpha above `most`, except next to corners below 60 degrees.
 mesh::Check worst_alpha_check(const mesh::QualitySummary& quality, double most);
 
+/// Returns the check that no edge is much longer than the size asks for at its middle: then the points have missed a
+/// place with small sizes.
+mesh::Check longest_edge_check(const mesh::QualitySummary& quality);
+
+/// Returns the check that no edge is shorter than the user allows.
+mesh::Check shortest_edge_check(const mesh::QualitySummary& quality, double least);
+
 } // namespace trime::extraction

@@ -26,20 +26,22 @@ struct FirstSums {
   FixedSum::Parts ratio, squared_ratio;
   std::int64_t edges;
   BadTriangles::Counts bad;
+  GrowthCounts growth;
 };
 constexpr std::size_t first_words = sizeof(FirstSums) / sizeof(std::int64_t);
 
-/// The medians, and where the worst triangle and the shortest edge are: what can only be asked for once the sums are
-/// known.
+constexpr std::size_t extreme_values = 4; // of QualitySums
+
+/// The medians, and the places of the extreme values: what can only be asked for once the sums are known.
 struct Detail {
   mesh::RatioSummary alpha, beta;
-  Vec2 worst_place, shortest_place;
+  std::array<Vec2, extreme_values> places;
 };
 
 /// The totals of all ranks that look_closer() needs.
 struct Totals {
   RatioTotals alpha, beta;
-  double worst, shortest;
+  std::array<double, extreme_values> extremes;
 };
 
 /// Collective.
@@ -49,14 +51,19 @@ Detail look_closer(const comm::Communicator& comm, const QualitySums& sums, cons
   std::array<std::int64_t, 2 * n> bins;
   std::ranges::copy(sums.alpha.bins(alpha.median_run()), bins.begin());
   std::ranges::copy(sums.beta.bins(beta.median_run()), bins.begin() + n);
-  // The first places in lexicographic order of those that are equally bad, or equally short.
-  const bool is_worst = sums.worst_alpha == of_all.worst, is_shortest = sums.shortest == of_all.shortest;
-  std::array<double, 2> x{is_worst ? -sums.worst_place.x : -infinity, is_shortest ? -sums.shortest_place.x : -infinity};
+  // The first places in lexicographic order of those with the same value.
+  const std::array<const Extreme*, extreme_values> mine = sums.extremes();
+  std::array<double, extreme_values> x, y;
+  for (std::size_t k = 0; k < extreme_values; ++k)
+    x[k] = mine[k]->value == of_all.extremes[k] ? -mine[k]->place.x : -infinity;
   comm.sum_and_max(bins, x);
-  std::array<double, 2> y{is_worst && sums.worst_place.x == -x[0] ? sums.worst_place.y : infinity,
-                          is_shortest && sums.shortest_place.x == -x[1] ? sums.shortest_place.y : infinity};
+  for (std::size_t k = 0; k < extreme_values; ++k)
+    y[k] = mine[k]->value == of_all.extremes[k] && mine[k]->place.x == -x[k] ? mine[k]->place.y : infinity;
   comm.min(y);
-  return {alpha.summary(std::span(bins).first(n)), beta.summary(std::span(bins).last(n)), {-x[0], y[0]}, {-x[1], y[1]}};
+  Detail detail{alpha.summary(std::span(bins).first(n)), beta.summary(std::span(bins).last(n)), {}};
+  for (std::size_t k = 0; k < extreme_values; ++k)
+    detail.places[k] = {-x[k], y[k]};
+  return detail;
 }
 
 using geometry::lexicographically_less;
@@ -183,26 +190,26 @@ void BadTriangles::tell(mesh::QualitySummary& quality) const {
   quality.worst_away = away_;
 }
 
-void QualitySums::note_worst(double a, Vec2 place) {
-  if (a > worst_alpha || (a == worst_alpha && geometry::lexicographically_less(place, worst_place))) {
-    worst_alpha = a;
-    worst_place = place;
-  }
-}
-
-void QualitySums::note_shortest(double length, Vec2 place) {
-  if (length < shortest || (length == shortest && geometry::lexicographically_less(place, shortest_place))) {
-    shortest = length;
-    shortest_place = place;
-  }
+double GrowthCounts::quantile(double share) const {
+  std::int64_t all = 0, below = 0;
+  for (const std::int64_t count : counts)
+    all += count;
+  std::size_t k = 0;
+  for (; k < bins && static_cast<double>(below += counts[k]) < share * static_cast<double>(all); ++k)
+    ;
+  return all == counts[0] ? 0 : width * static_cast<double>(k + 1);
 }
 
 void QualitySums::add(const QualitySums& other) {
   alpha.merge(other.alpha);
   beta.merge(other.beta);
   least_sine = std::min(least_sine, other.least_sine);
-  note_worst(other.worst_alpha, other.worst_place);
-  note_shortest(other.shortest, other.shortest_place);
+  worst.note(other.worst.value, other.worst.place);
+  shortest.note(other.shortest.value, other.shortest.place);
+  growth.note(other.growth.value, other.growth.place);
+  longest.note(other.longest.value, other.longest.place);
+  for (std::size_t k = 0; k < GrowthCounts::bins; ++k)
+    growth_counts.counts[k] += other.growth_counts.counts[k];
   ratio.add(other.ratio);
   squared_ratio.add(other.squared_ratio);
   edges += other.edges;
@@ -217,7 +224,8 @@ void QualityMeter::add_triangle(Vec2 p, Vec2 q, Vec2 r) {
     measure_triangles();
 }
 
-void QualityMeter::add_edge(Vec2 p, Vec2 q) {
+void QualityMeter::add_edge(Vec2 p, Vec2 q, double size_at_p) {
+  from_size_[edges_] = size_at_p;
   from_.set(edges_, p);
   to_.set(edges_, q);
   if (++edges_ == block)
@@ -246,10 +254,10 @@ void QualityMeter::measure_triangles() {
     worst = std::max(worst, alpha[k]);
   }
   sums_.least_sine = least;
-  if (worst >= sums_.worst_alpha)
+  if (worst >= sums_.worst.value)
     for (std::size_t k = 0; k < n; ++k)
       if (alpha[k] == worst)
-        sums_.note_worst(worst, periods_.wrap((1.0 / 3) * (p_[k] + q_[k] + r_[k])));
+        sums_.worst.note(worst, periods_.wrap((1.0 / 3) * (p_[k] + q_[k] + r_[k])));
   for (std::size_t k = 0; worst > mesh::least_obtuse_alpha && k < n; ++k)
     if (alpha[k] > mesh::least_obtuse_alpha)
       list_if_bad(alpha[k], k);
@@ -277,14 +285,9 @@ void QualityMeter::measure_edges() {
     for (std::size_t k = 0; k < n; ++k)
       size[k] = sizing::checked_size(size_, periods_.wrap(0.5 * (from_[k] + to_[k])));
   Values length;
-  double least = infinity;
-  for (std::size_t k = 0; k < n; ++k) {
+  for (std::size_t k = 0; k < n; ++k)
     length[k] = geometry::length(to_[k] - from_[k]);
-    least = std::min(least, length[k]);
-  }
-  for (std::size_t k = 0; least <= sums_.shortest && k < n; ++k)
-    if (length[k] == least)
-      sums_.note_shortest(least, periods_.wrap(0.5 * (from_[k] + to_[k])));
+  note_extremes(std::span(length).first(n), std::span(size).first(n));
   std::int64_t ratios = 0, squares = 0;
   for (std::size_t k = 0; k < n; ++k) {
     const double capped = std::min(most_over_size, length[k] / size[k]);
@@ -297,14 +300,41 @@ void QualityMeter::measure_edges() {
   edges_ = 0;
 }
 
+/// @param length, size of the edges of this block
+void QualityMeter::note_extremes(std::span<const double> length, std::span<const double> size) {
+  const std::size_t n = length.size();
+  Values growth, ratio;
+  double shortest = infinity, steepest = 0, longest = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    growth[k] = length[k] > 0 ? std::fabs(size[k] - from_size_[k]) / (0.5 * length[k]) : 0;
+    ratio[k] = length[k] / size[k];
+    shortest = std::min(shortest, length[k]);
+    steepest = std::max(steepest, growth[k]);
+    longest = std::max(longest, ratio[k]);
+  }
+  for (std::size_t k = 0; k < n; ++k)
+    sums_.growth_counts.add(growth[k]);
+  if (-shortest < sums_.shortest.value && steepest < sums_.growth.value && longest < sums_.longest.value)
+    return;
+  for (std::size_t k = 0; k < n; ++k) {
+    const Vec2 middle = periods_.wrap(0.5 * (from_[k] + to_[k]));
+    sums_.shortest.note(-length[k], middle);
+    sums_.growth.note(growth[k], middle);
+    sums_.longest.note(ratio[k], middle);
+  }
+}
+
 mesh::QualitySummary summarize(const comm::Communicator& comm, QualitySums& sums) {
-  const FirstSums mine{sums.alpha.pack(),          sums.beta.pack(), sums.ratio.split(),
-                       sums.squared_ratio.split(), sums.edges,       sums.bad.counts()};
+  const FirstSums mine{sums.alpha.pack(), sums.beta.pack(),  sums.ratio.split(), sums.squared_ratio.split(),
+                       sums.edges,        sums.bad.counts(), sums.growth_counts};
   auto words = std::bit_cast<std::array<std::int64_t, first_words>>(mine);
-  std::array<double, 5> largest{sums.alpha.max(), sums.beta.max(), -sums.least_sine, sums.worst_alpha, -sums.shortest};
+  constexpr std::size_t maxima = 3;
+  std::array<double, maxima + extreme_values> largest{sums.alpha.max(), sums.beta.max(), -sums.least_sine};
+  std::ranges::transform(sums.extremes(), largest.begin() + maxima, [](const Extreme* one) { return one->value; });
   comm.sum_and_max(words, largest);
   const auto first = std::bit_cast<FirstSums>(words);
-  const Totals totals{{first.alpha, largest[0]}, {first.beta, largest[1]}, largest[3], -largest[4]};
+  Totals totals{{first.alpha, largest[0]}, {first.beta, largest[1]}, {}};
+  std::copy(largest.begin() + maxima, largest.end(), totals.extremes.begin());
   const Detail detail = look_closer(comm, sums, totals);
 
   mesh::QualitySummary quality;
@@ -312,10 +342,13 @@ mesh::QualitySummary summarize(const comm::Communicator& comm, QualitySums& sums
   quality.beta = detail.beta;
   quality.alpha_histogram = totals.alpha.histogram();
   quality.min_angle_degrees = std::min(60.0, elementary::asin(std::min(1.0, -largest[2])) * (180 / pi));
-  quality.worst_place = detail.worst_place;
+  quality.worst_place = detail.places[0];
   if (first.edges > 0) {
-    quality.shortest_edge = totals.shortest;
-    quality.shortest_place = detail.shortest_place;
+    quality.shortest_edge = -totals.extremes[1];
+    quality.shortest_place = detail.places[1];
+    quality.growth = {first.growth.quantile(0.9), first.growth.quantile(0.99), totals.extremes[2], detail.places[2]};
+    quality.longest_over_size = totals.extremes[3];
+    quality.longest_place = detail.places[3];
   }
   sums.bad.gather(comm, first.bad);
   sums.bad.tell(quality);

@@ -10,7 +10,9 @@
 #include "trime/mesh/quality.hpp"
 #include "trime/sizing/size_field.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
@@ -66,21 +68,44 @@ private:
   mesh::BadTriangle away_;               ///< the worst triangle that is not near a sharp corner
 };
 
+/// The largest of some values and its place; of equal values, the lexicographically first place.
+struct Extreme {
+  double value = -std::numeric_limits<double>::infinity();
+  geometry::Vec2 place;
+
+  void note(double its_value, geometry::Vec2 its_place) {
+    if (its_value > value || (its_value == value && geometry::lexicographically_less(its_place, place)))
+      *this = {its_value, its_place};
+  }
+};
+
+/// Counts how fast the size grows along the edges.
+struct GrowthCounts {
+  static constexpr std::size_t bins = 2048;
+  static constexpr double width = 1.0 / 1024; ///< of a bin; the last bin also counts all larger values
+  std::array<std::int64_t, bins> counts{};
+
+  void add(double growth) { ++counts[static_cast<std::size_t>(std::min(growth / width, bins - 1.0))]; }
+  /// Returns the upper end of the bin that holds this share of all values.
+  double quantile(double share) const;
+};
+
 /// Sums over triangles and edges. Sums of several threads and ranks can be merged in any order, because the sums are
 /// integers, and of equally bad triangles and equally short edges the lexicographically first is kept.
 struct QualitySums {
   mesh::RatioStatistics alpha, beta;
   double least_sine = std::numeric_limits<double>::infinity(); ///< sine of the smallest angle of any triangle
-  double worst_alpha = 0;
-  geometry::Vec2 worst_place;
-  double shortest = std::numeric_limits<double>::infinity(); ///< length of the shortest edge
-  geometry::Vec2 shortest_place;                             ///< middle of the shortest edge, in the container
+  Extreme worst;                                               ///< largest alpha, and the centre of its triangle
+  Extreme shortest; ///< length of the shortest edge with a minus sign, and the middle of the edge in the container
+  Extreme growth;   ///< largest |change of h| / distance between an end and the middle of an edge, and this middle
+  Extreme longest;  ///< largest L / h of an edge of length L, and its middle
+  GrowthCounts growth_counts{};
   FixedSum ratio, squared_ratio; ///< sums of L / h and of its square over all edges of length L
   std::int64_t edges = 0;
   BadTriangles bad;
 
-  void note_worst(double a, geometry::Vec2 place);
-  void note_shortest(double length, geometry::Vec2 place);
+  /// Returns the extreme values in the order in which ranks compare them.
+  std::array<const Extreme*, 4> extremes() const { return {&worst, &shortest, &growth, &longest}; }
   void add(const QualitySums& other);
 };
 
@@ -101,9 +126,9 @@ public:
     beta_ = beta;
   }
   void add_triangle(geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r);
-  /// Adds an edge.
+  /// Adds an edge. @param size_at_p h at the end p
   /// @throws GeometryError if h at the middle of the edge is not positive and finite
-  void add_edge(geometry::Vec2 p, geometry::Vec2 q);
+  void add_edge(geometry::Vec2 p, geometry::Vec2 q, double size_at_p);
   /// Measures the remaining triangles and edges of incomplete blocks.
   void finish();
   QualitySums& sums() { return sums_; }
@@ -122,6 +147,7 @@ private:
   void measure_triangles();
   void list_if_bad(double alpha, std::size_t k);
   void measure_edges();
+  void note_extremes(std::span<const double> length, std::span<const double> size);
 
   const sizing::SizeField& size_;
   const geometry::Periods& periods_;
@@ -129,6 +155,7 @@ private:
   QualitySums sums_;
   std::size_t triangles_ = 0, edges_ = 0; // numbers of triangles and edges in the incomplete blocks
   Places p_, q_, r_, from_, to_;
+  Values from_size_;
   std::span<float> alpha_, beta_;
 };
 

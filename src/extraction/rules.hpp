@@ -15,6 +15,9 @@ struct ExtractionRules {
   static constexpr std::size_t most_listed = 10;
   /// [degrees] An equilateral triangle does not fit into a corner with a smaller interior angle. Not measured.
   static constexpr double sharp_degrees = 60;
+  /// [h] No edge may be longer, with h at its middle. Measured on 40 meshes of shapes and coasts with 30 to 1e5 points:
+  /// 1.2 to 2.2; without a limit of the growth, meshes that had missed a band of small sizes: 5 to 55.
+  static constexpr double longest_edge = 4;
   /// [longest edges of the triangle] A corner within this distance counts as the reason for a bad triangle. The sites
   /// at equal distances around the corner (shells), and the triangles that adapt to them, reach about as far. Not
   /// measured.

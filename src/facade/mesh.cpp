@@ -149,6 +149,14 @@ mesh::QualitySummary quality_of(const io::Metadata& metadata) {
                                     {"shortest_edge", &quality.shortest_edge},
                                     {"shortest_edge_x", &quality.shortest_place.x},
                                     {"shortest_edge_y", &quality.shortest_place.y},
+                                    {"growth_90", &quality.growth.of_90_percent},
+                                    {"growth_99", &quality.growth.of_99_percent},
+                                    {"growth_largest", &quality.growth.largest},
+                                    {"growth_largest_x", &quality.growth.place.x},
+                                    {"growth_largest_y", &quality.growth.place.y},
+                                    {"longest_over_size", &quality.longest_over_size},
+                                    {"longest_over_size_x", &quality.longest_place.x},
+                                    {"longest_over_size_y", &quality.longest_place.y},
                                     {"size_mean", &quality.size_mean},
                                     {"size_std", &quality.size_std}})
     if (group != nullptr)

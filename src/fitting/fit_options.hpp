@@ -20,6 +20,7 @@ struct FitOptions {
   std::optional<double> gradation;     ///< largest growth of h per unit of distance; empty: not limited
   boundary::FeatureOptions features;
   std::optional<double> min_size, max_size;
+  double least_lowered = 0; ///< narrow places do not lower h below this
 };
 
 } // namespace trime::fitting

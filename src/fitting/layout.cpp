@@ -236,7 +236,13 @@ std::vector<sizing::SizeLimit> further_limits(const LayoutContext& context, cons
   const auto time = context.timers.scope("boundary");
   if (trial.asked_size().is_uniform() || trial.polygon.overfull)
     return {};
-  return size_limits(context.comm, trial.polygon, *trial.size, trial.asked_size(), context.narrow_gradation());
+  std::vector<sizing::SizeLimit> limits =
+      size_limits(context.comm, trial.polygon, *trial.size, trial.asked_size(), context.narrow_gradation());
+  std::erase_if(limits, [&](sizing::SizeLimit& limit) {
+    limit.size = std::fmax(limit.size, context.options.least_lowered);
+    return limit.size >= trial.size->size(limit.place);
+  });
+  return limits;
 }
 
 bool needs_lowering(const LayoutContext& context, const Stage& laid) {

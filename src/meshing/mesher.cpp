@@ -82,6 +82,7 @@ private:
   bool clean_up();
   MeshResult extract();
   void judge_bodies();
+  void promise_shortest_edge(double least, MeshResult& result) const;
   void tell_of_run(MeshResult& result);
   void tell_of_start(MeshResult& result) const;
   std::string count_reason(GlobalId points) const;
@@ -264,12 +265,27 @@ MeshResult Run::extract() {
                                          result.mesh);
   }
   result.checks.push_back(extraction::worst_alpha_check(result.quality, run_.options.worst_alpha));
+  if (run_.fit.gradation || run_.relative_size.is_uniform()) // else the size may jump from point to point
+    result.checks.push_back(extraction::longest_edge_check(result.quality));
+  if (const std::optional<double>& least = run_.options.shortest_edge)
+    promise_shortest_edge(*least, result);
   if (const std::optional<double>& most = run_.options.features.max_loss)
     result.checks.push_back({"lost_area", *most, features_.lost_share, features_.lost_share <= *most,
                              "share of the area of the given shape that is lost: at most max_loss"});
   judge_bodies();
   tell_of_run(result);
   return result;
+}
+
+/// Adds the check that the shortest edge is long enough, and says what to do if it is not.
+void Run::promise_shortest_edge(double least, MeshResult& result) const {
+  const mesh::Check& check = result.checks.emplace_back(extraction::shortest_edge_check(result.quality, least));
+  if (!check.passed)
+    run_.log.warning(
+        "the shortest edge is {:.6g} long, at {}, but shortest_edge = {:g} in [sizing]: the shape is narrower "
+        "there, or has a corner there. Larger sizes simplify it (min_size); so do larger values of "
+        "simplify_within and corner_angle in [meshing]",
+        result.quality.shortest_edge, Place(result.quality.shortest_place, 10), least);
 }
 
 /// Compares the loops of the shape with the final edges, which the clean-up may have moved. Collective.

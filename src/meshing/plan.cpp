@@ -3,7 +3,24 @@
 
 #include "meshing/rules.hpp"
 
+#include <cmath>
+
 namespace trime::meshing {
+
+namespace {
+
+/// The shortest edges are shorter than h by about this factor.
+constexpr double shortest_share = 0.6;
+
+/// The smallest h, so that edges are as long as was promised.
+std::optional<double> least_size(const MeshOptions& options) {
+  if (!options.shortest_edge)
+    return options.min_size;
+  const double least = *options.shortest_edge / shortest_share;
+  return std::fmax(options.min_size.value_or(0), options.max_size ? std::fmin(least, *options.max_size) : least);
+}
+
+} // namespace
 
 fitting::FitOptions fit_options(const MeshOptions& options, const sizing::SizeField& size) {
   const bool absolute = options.absolute_sizes, is_one_length = absolute && size.is_uniform();
@@ -15,8 +32,9 @@ fitting::FitOptions fit_options(const MeshOptions& options, const sizing::SizeFi
           .point_limit = absolute ? options.points : std::nullopt,
           .gradation = options.gradation,
           .features = options.features,
-          .min_size = options.min_size,
-          .max_size = options.max_size};
+          .min_size = least_size(options),
+          .max_size = options.max_size,
+          .least_lowered = options.shortest_edge ? least_size(options).value_or(0) : 0};
 }
 
 start::StartOptions start_options(const MeshOptions& options) {

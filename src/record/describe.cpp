@@ -154,6 +154,14 @@ io::MetadataGroup quality_group(const mesh::QualitySummary& quality) {
   group.attributes.push_back({"shortest_edge", quality.shortest_edge});
   group.attributes.push_back({"shortest_edge_x", quality.shortest_place.x});
   group.attributes.push_back({"shortest_edge_y", quality.shortest_place.y});
+  group.attributes.push_back({"growth_90", quality.growth.of_90_percent});
+  group.attributes.push_back({"growth_99", quality.growth.of_99_percent});
+  group.attributes.push_back({"growth_largest", quality.growth.largest});
+  group.attributes.push_back({"growth_largest_x", quality.growth.place.x});
+  group.attributes.push_back({"growth_largest_y", quality.growth.place.y});
+  group.attributes.push_back({"longest_over_size", quality.longest_over_size});
+  group.attributes.push_back({"longest_over_size_x", quality.longest_place.x});
+  group.attributes.push_back({"longest_over_size_y", quality.longest_place.y});
   group.attributes.push_back({"size_mean", quality.size_mean});
   group.attributes.push_back({"size_std", quality.size_std});
   group.attributes.push_back({"bad_triangles", quality.bad_triangles});

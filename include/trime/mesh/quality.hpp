@@ -137,6 +137,15 @@ struct BadTriangle {
   std::int64_t obtuse = 0;    ///< 1 if this angle is larger than 90 degrees, by exact arithmetic
 };
 
+/// @brief How fast h grows: |h(m) - h(p)| / |m - p| for one end p of each edge and its middle m. The quantiles are
+/// rounded up to a multiple of 1/1024.
+struct GrowthSummary {
+  double of_90_percent = 0; ///< 90 % of the edges have at most this growth
+  double of_99_percent = 0; ///< 99 % of the edges have at most this growth
+  double largest = 0;
+  geometry::Vec2 place; ///< middle of the edge with the largest growth
+};
+
 /// Quality of a whole mesh, as printed and stored.
 struct QualitySummary {
   RatioSummary alpha, beta;
@@ -144,7 +153,10 @@ struct QualitySummary {
   geometry::Vec2 worst_place; ///< centre of the triangle with the largest alpha
   double shortest_edge = 0;   ///< length of the shortest edge of the mesh
   geometry::Vec2
-      shortest_place; ///< middle of the shortest edge; of equally short edges, the lexicographically first middle
+      shortest_place;   ///< middle of the shortest edge; of equally short edges, the lexicographically first middle
+  GrowthSummary growth; ///< how fast the target edge length grows along the edges
+  double longest_over_size = 0;       ///< largest L / h of an edge of length L, with h at its middle
+  geometry::Vec2 longest_place;       ///< middle of this edge
   double size_mean = 1, size_std = 0; ///< mean and standard deviation of L / (s h) over all edges of length L, with h
                                       ///< at the middle; s is chosen so that the mean is 1
   std::array<std::int64_t, RatioStatistics::classes> alpha_histogram{};
