@@ -194,7 +194,8 @@ private:
     if (found.accepted)
       return std::move(*found.accepted);
     if (!found.fits)
-      return too_few_points(context_, found.fewest);
+      return trials_.steep().limits.empty() ? too_few_points(context_, found.fewest)
+                                            : too_steep_size(context_, trials_.steep().limits);
     const bool jumps = bracket.has_lower() && found.best.points < enough_points * points_;
     if (jumps && !found.best.fit.stage.curves && context_.options.features.keep_all &&
         is_jump(found.best.points, points_))

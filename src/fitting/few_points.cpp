@@ -5,6 +5,7 @@
 #include "fitting/rules.hpp"
 #include "trime/core/error.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -76,6 +77,18 @@ TooFewPoints too_few_points(const LayoutContext& context, const Fewest& fewest) 
       "more points, or simplify the shape there",
       *context.options.points, fewest.counted ? "" : "more than ", fewest.points,
       geometry::length(fewest.shortest.b - fewest.shortest.a), Place(place, 6))};
+}
+
+TooFewPoints too_steep_size(const LayoutContext& context, std::span<const sizing::SizeLimit> places) {
+  const sizing::SizeLimit least = *std::ranges::min_element(places, {}, &sizing::SizeLimit::size);
+  const geometry::Box box = context.given_boundary.bounding_box();
+  return {
+      fmt::format("points = {} are too few for this size: near {} it falls to {:.3g} of the width of the shape even "
+                  "where the triangles elsewhere are as large as the shape, and it grows by at most {:g} per length "
+                  "from there; use more points, a size with a larger smallest value, or min_size in [sizing] "
+                  "('gradation = none' uses the size as it is)",
+                  *context.options.points, Place(least.place, 4), least.size / std::fmax(box.width(), box.height()),
+                  *context.options.gradation)};
 }
 
 std::optional<TooFewPoints> too_thin(const LayoutContext& context, const Stage& stage) {

@@ -5,9 +5,11 @@
 
 #include "fitting/layout_context.hpp"
 #include "sites/stage.hpp"
+#include "sizing/lowered_size.hpp"
 
 #include <cmath>
 #include <optional>
+#include <span>
 #include <string>
 
 namespace trime::fitting {
@@ -31,6 +33,10 @@ struct Fewest {
 /// `fewest`
 TooFewPoints too_few_points(const LayoutContext& context, double fewest, bool counted = true);
 TooFewPoints too_few_points(const LayoutContext& context, const Fewest& fewest);
+
+/// Returns the message if the size is limited at places, because it is too small at some of them. @pre `places` is not
+/// empty
+TooFewPoints too_steep_size(const LayoutContext& context, std::span<const sizing::SizeLimit> places);
 
 /// @brief Says so if the shape is so thin nearly everywhere that the simplified curves of the stage enclose several
 /// times its area: then the mesh would be of another shape.

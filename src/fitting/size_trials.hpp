@@ -52,6 +52,8 @@ public:
   void hold(const FittedSize& fitted);
 
   double coarsening() const { return coarsening_; }
+  /// Returns where the size of the last layout is limited because it grows too fast.
+  const SteepPlaces& steep() const { return fitted_.steep; }
   std::size_t limits() const { return limits_.size(); }
   /// Returns how often limits were searched since the factor last changed much.
   int limit_rounds() const { return limit_rounds_; }

@@ -92,7 +92,8 @@ class Shapes(unittest.TestCase):
         text = self.passes(self.mesh(config, (0, 5)))
         self.assertRegex(text, r"(?m)^ok +size .* because .* the size is lowered to 0.05 of the size asked for")
         config = self.config("jumps", rectangle(0.1, 0.9, 0.1, 0.9) +
-                             "[sizing]\ntype = expression\nexpression = abs(sin(50*x))+1e-7\n", meshing="points = 60\n")
+                             "[sizing]\ntype = expression\nexpression = abs(sin(50*x))+1e-7\ngradation = none\n",
+                             meshing="points = 60\n")
         text = self.passes(self.mesh(config, (0, 5)))
         self.assertRegex(text, r"(?m)^-- +size_mean +not checked: the size is an expression")
 
