@@ -339,6 +339,32 @@ class Maps(unittest.TestCase):
             self.assertRegex(told, r'ID\["EPSG",4326\]|WGS 84')
             self.assertIn(f"Feature Count: {len(triangles) + len(edges)}", told)
 
+    def test_long_edges_are_straight_in_degrees(self):
+        box = [[-13, 76], [13, 76], [13, 78], [-13, 78], [-13, 76]]
+        land = [[-5.1, 76], [3, 76], [0, 77], [-5.1, 76]]
+        cut = [[-5, 76], [7, 76], [5, 76.6], [0, 77], [-4, 76.4], [-5, 76]]
+        config = ("[shape]\ngeometry = difference(box, land)\nprojection = auto\n[shape.box]\ntype = contour\n"
+                  "file = box.geojson\n[shape.land]\ntype = contour\nfile = land.geojson\n[meshing]\npoints = 2000\n")
+        with Workspace() as work:
+            (work / "case.ini").write_text(config)
+            (work / "box.geojson").write_text(json.dumps({"type": "Polygon", "coordinates": [box]}))
+            for ring, corners in ((cut, 8), (cut[::-1], 8), (land, 7)):
+                (work / "land.geojson").write_text(json.dumps({"type": "Polygon", "coordinates": [ring]}))
+                done = run(work / "case.ini", f"output.directory={work}", "output.overwrite=true",
+                           "output.formats=geojson", "--verbose")
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertRegex(done.stdout, r"\d+ long edges of the contours are divided by \d+ more vertices")
+                self.assertIn("+lat_0=77 +lon_0=0 ", done.stdout)
+                self.assertNotIn("warning", done.stdout + done.stderr)
+                self.assertRegex(done.stdout, rf"boundary: 1 component, 0 holes, \d+ sites, {corners} corners")
+                _, edges = self.places(work / "case.geojson")
+                low = edges[numpy.abs(edges[:, :, 1] - 76).max(axis=1) < 0.01].reshape(-1, 2)
+                self.assertLess(low[:, 0].min(), -12.9)  # along all of the parallel, to 1e-6 of 680 km
+                self.assertLess(numpy.abs(low[:, 1] - 76).max(), 0.7 / 111e3)
+                places = edges.reshape(-1, 2)
+                for vertex in box[:4]:
+                    self.assertLess(numpy.abs(places - vertex).max(axis=1).min(), 1e-9)
+
     def test_a_named_projection_is_that_of_gdal(self):
         square = [[9.0, 48.0], [9.4, 48.0], [9.4, 48.3], [9.0, 48.3], [9.0, 48.0]]
         text = json.dumps({"type": "Polygon", "coordinates": [square]})
