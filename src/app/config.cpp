@@ -106,6 +106,7 @@ PartOptions part_of(const Settings& settings, const std::string& name, const fs:
     part.file = (directory / settings.text(section, "file")).lexically_normal().string(); // absolute paths stay
     if (const std::string attribute = settings.text(section, "attribute"); attribute != "none")
       part.attribute = attribute;
+    part.dissolve = settings.text(section, "overlap") == "union";
     part.normalize = settings.boolean(section, "normalize");
   } else if (part.type == "expression") {
     part.sdf = settings.text(section, "sdf");

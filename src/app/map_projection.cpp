@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/map_projection.hpp"
 
+#include "app/straight_edges.hpp"
 #include "core/quoted.hpp"
 #include "projection/projection.hpp"
 #include "trime/core/error.hpp"
@@ -145,6 +146,14 @@ void warn_of_distortion(std::span<const Contour> contours, const std::string& pl
       plane, worst.most, worst.place.x, worst.place.y, (worst.place.y < 0 ? 32700 : 32600) + zone, zone);
 }
 
+void tell_of_divided(const DividedEdges& divided, Log& log) {
+  if (divided.edges > 0)
+    log.info("{} long edge{} of the contours {} divided by {} more vertices: edges are straight in the coordinates of "
+             "their files, and {} up to {:.3g} away from that line in the plane",
+             divided.edges, divided.edges == 1 ? "" : "s", divided.edges == 1 ? "is" : "are", divided.vertices,
+             divided.edges == 1 ? "this one was" : "these were", divided.deviation);
+}
+
 /// Without a projection.
 MapSystem as_it_is(const RunOptions& options, std::span<const Contour> contours, Log& log) {
   const std::string crs = common_system(contours);
@@ -200,6 +209,7 @@ MapSystem project_contours(const RunOptions& options, std::span<Contour> contour
         project_contour(contour, map.crs);
       }
     map.well_known_text = projection::well_known_text(map.crs);
+    tell_of_divided(divide_long_edges(contours, map.crs), log);
     if (options.projection != "auto")
       warn_of_distortion(contours, map.crs, log);
   } catch (const ConfigError& error) {

@@ -126,6 +126,14 @@ const Option table[] = {
      .meaning = "an attribute of the features of a `.geojson` or `.shp` that names the boundary, such as `name`: texts "
                 "make parts `NAME.TEXT`, integers become markers"},
     {.section = "shape.NAME",
+     .key = "overlap",
+     .part_type = "contour",
+     .kind = OptionKind::word,
+     .fallback = "error",
+     .choices = "error union",
+     .meaning = "polygons of a `.geojson` or `.shp` that overlap, lie in each other or share borders: `error` refuses "
+                "them, `union` unites them"},
+    {.section = "shape.NAME",
      .key = "normalize",
      .part_type = "contour",
      .kind = OptionKind::boolean,

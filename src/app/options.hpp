@@ -30,6 +30,7 @@ struct PartOptions {
   std::string file; ///< path of the contour file, relative to the working directory of the program or absolute
   bool file_is_relative = false; ///< true if the user gave the path relative to the config file
   std::string attribute;         ///< attribute of map features that names the boundary; empty: no attribute
+  bool dissolve = false;         ///< polygons of a map that overlap or share borders are united
   bool normalize = false;
   std::string sdf; ///< formula of x and y
 };

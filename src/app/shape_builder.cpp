@@ -55,6 +55,11 @@ std::vector<contours::Contour> read_contours(const RunOptions& options, const co
     for (std::size_t k = 0; k < contours.size(); ++k)
       if (const PartOptions& part = options.parts[k]; part.type == "contour")
         contours[k] = contours::read_contour(part.file, hint_of(part.file_is_relative), part.attribute);
+    for (std::size_t k = 0; k < contours.size(); ++k)
+      if (options.parts[k].dissolve && !contours[k].is_map)
+        throw ConfigError(fmt::format("{}: 'overlap = union' in [shape.{}] unites the polygons of a map; expected a "
+                                      ".geojson or .shp, found a file of another type",
+                                      contours[k].source, options.parts[k].name));
     map = project_contours(options, contours, log);
   });
   if (comm.size() > 1)
@@ -121,6 +126,14 @@ shape::Part build_part(const PartOptions& part, const contours::Contour& contour
   return shape::Part::contour(part.name, contour, place, frame, touches);
 }
 
+void tell_of(const shape::Part& part, Log& log) {
+  for (const std::string& warning : part.warnings())
+    log.warning("{}", warning);
+  if (const shape::Polygon* polygon = part.as_polygon())
+    for (const std::string& note : polygon->notes)
+      log.summary("{}", note);
+}
+
 } // namespace
 
 std::string read_shared(const std::string& path, const comm::Communicator& comm) {
@@ -152,7 +165,7 @@ ShapeInput read_shape(const RunOptions& given, ShapeUse use, const comm::Communi
     if (part.normalize)
       place = contours::fit_to_container(contours[k], frame.container());
     parts.push_back(build_part(part, contours[k], place, frame,
-                               {region.subtracts(static_cast<int>(k)), touch_gap(options, container)}));
+                               {region.subtracts(static_cast<int>(k)), part.dissolve, touch_gap(options, container)}));
     if (part.type == "contour" && comm.is_root())
       found.add(contours[k], place);
     contours[k] = {};
@@ -160,8 +173,7 @@ ShapeInput read_shape(const RunOptions& given, ShapeUse use, const comm::Communi
       fixed_points_place = place;
     if (part.normalize)
       normalized.push_back({part.name, part.file, place.scale, place.to - place.scale * place.from});
-    for (const std::string& warning : parts.back().warnings())
-      log.warning("{}", warning);
+    tell_of(parts.back(), log);
   }
   places = std::move(found);
   ShapeInput input{{}, {}, fixed_points_place, std::move(normalized), std::move(map)};

@@ -156,6 +156,7 @@ public:
     visit(ring.lines);
     visit(ring.markers);
     visit(ring.in_file);
+    visit(ring.polygon);
   }
   template <class Visitor, class One>
   requires std::is_same_v<std::remove_const_t<One>, Contour>

@@ -41,8 +41,10 @@ FeatureRings::FeatureRings(Contour& contour, std::string attribute)
   contour_.is_map = true;
 }
 
-void FeatureRings::add(Kind kind, std::vector<FilePoint> vertices) {
-  of_feature_.push_back({kind, std::move(vertices)});
+void FeatureRings::add(Kind kind, std::vector<FilePoint> vertices, bool continues) {
+  if (kind == Kind::polygon && !continues)
+    ++polygon_;
+  of_feature_.push_back({kind, std::move(vertices), kind == Kind::polygon ? polygon_ : 0});
 }
 
 void FeatureRings::skip(const std::string& type, int line) {
@@ -71,11 +73,13 @@ void FeatureRings::end_feature(const std::optional<std::string>& value, const st
       open_markers_.push_back(number);
       continue;
     }
+    builder_.set_polygon(chain.polygon);
     for (const FilePoint& vertex : chain.vertices)
       builder_.add(vertex.position, vertex.line, number);
     builder_.end_ring();
   }
   of_feature_.clear();
+  builder_.set_polygon(0);
   builder_.set_feature({});
 }
 

@@ -24,8 +24,9 @@ public:
   FeatureRings(Contour& contour, std::string attribute);
 
   /// @brief Adds a ring, or a line that may be open, to the current feature.
+  /// @param continues true if the ring belongs to the same polygon as the ring before it
   /// @pre the line has a vertex
-  void add(Kind kind, std::vector<FilePoint> vertices);
+  void add(Kind kind, std::vector<FilePoint> vertices, bool continues = false);
   /// Notes a geometry without area or length, such as a point, for a warning with its type.
   void skip(const std::string& type, int line);
   /// Notes the name of an attribute that some feature has.
@@ -44,6 +45,7 @@ private:
   struct Chain {
     Kind kind;
     std::vector<FilePoint> vertices;
+    int polygon = 0;        // 0 for lines
     std::string label = {}; // text for messages about an open line
   };
 
@@ -62,6 +64,7 @@ private:
   std::map<std::string, int> numbers_; // number of each value of the attribute, from 1
   std::vector<std::string> values_;    // the value with number k + 1 at index k
   std::set<std::string> attributes_;
+  int polygon_ = 0; // number of the last one
   int skipped_ = 0, skipped_line_ = 0;
   std::string skipped_type_;
 };

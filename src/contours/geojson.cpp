@@ -126,8 +126,12 @@ public:
         refuse(array.line, "expected a position of two numbers [x, y] or more, found one");
       if (!object.arrays.empty())
         object.arrays.back().positions.push_back({array.place, array.line});
-    } else if (!array.positions.empty())
+    } else if (!array.positions.empty()) {
       object.chains.push_back(array.positions);
+      object.polygons.push_back(object.polygon);
+    } else {
+      ++object.polygon;
+    }
     return true;
   }
   bool parse_error(std::size_t, const std::string& token, const nlohmann::json::exception&) {
@@ -148,7 +152,9 @@ private:
     std::string key, type;
     std::vector<Array> arrays; // that are open, inside `coordinates`
     std::vector<Chain> chains;
-    int lists = 0; // other arrays that are open
+    std::vector<int> polygons; // the polygon of each chain, counted in this object
+    int polygon = 0;           // number of polygons that have ended
+    int lists = 0;             // other arrays that are open
     bool has_coordinates = false;
     bool is_property = false;             // of something, or part of one: its type and coordinates are not a geometry
     std::vector<std::string> attributes;  // names of its properties, if it turns out to be a feature
@@ -221,8 +227,9 @@ private:
         rings_.skip(object.type, line_);
       return;
     }
-    for (const Chain& chain : object.chains)
-      rings_.add(is_line ? FeatureRings::Kind::line : FeatureRings::Kind::polygon, chain);
+    for (std::size_t k = 0; k < object.chains.size(); ++k)
+      rings_.add(is_line ? FeatureRings::Kind::line : FeatureRings::Kind::polygon, object.chains[k],
+                 k > 0 && object.polygons[k] == object.polygons[k - 1]);
   }
 
   Contour& contour_;

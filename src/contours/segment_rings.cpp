@@ -46,6 +46,7 @@ void RingBuilder::end_ring() {
   ring_.points.shrink_to_fit(); // they have grown by doubling
   ring_.lines.shrink_to_fit();
   ring_.markers.shrink_to_fit();
+  ring_.polygon = polygon_;
   contour_.rings.push_back(std::move(ring_));
   ring_ = {};
 }

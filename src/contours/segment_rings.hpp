@@ -19,6 +19,8 @@ public:
 
   /// Sets a text that later messages contain after the line number, such as " (feature 3)".
   void set_feature(const std::string& feature) { feature_ = feature; }
+  /// Sets the polygon to which the next rings belong, see ContourRing::polygon.
+  void set_polygon(int polygon) { polygon_ = polygon; }
   /// Adds a vertex to the current ring.
   /// @param marker marker of the edge from this vertex to the next
   /// @throws GeometryError for coordinates that are too large
@@ -38,6 +40,7 @@ private:
   Contour& contour_;
   ContourRing ring_;
   std::string feature_;
+  int polygon_ = 0;
   int merged_ = 0;
 };
 

@@ -187,7 +187,7 @@ private:
       std::vector<FilePoint> vertices;
       for (int k = first; k < end; ++k)
         vertices.push_back({{record.padfX[k], record.padfY[k]}, number});
-      rings_.add(is_line ? FeatureRings::Kind::line : FeatureRings::Kind::polygon, std::move(vertices));
+      rings_.add(is_line ? FeatureRings::Kind::line : FeatureRings::Kind::polygon, std::move(vertices), part > 0);
     }
   }
 

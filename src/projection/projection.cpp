@@ -6,8 +6,10 @@
 
 #include <proj.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 namespace trime::projection {
 namespace {
@@ -130,27 +132,65 @@ std::string well_known_text(const std::string& crs) {
   return text == nullptr ? crs : text;
 }
 
+namespace {
+
+/// The direction to a place on the Earth.
+std::array<double, 3> direction_of(Vec2 p) {
+  const SinCos east = sin_cos(p.x * degrees), north = sin_cos(p.y * degrees);
+  return {north.cos * east.cos, north.cos * east.sin, north.sin};
+}
+
+/// Returns the least range of longitudes that holds all given ones: it begins after the largest gap. Both ends may lie
+/// beyond 180 degrees.
+std::array<double, 2> range_of(std::vector<double> longitudes) {
+  for (double& east : longitudes)
+    east -= 360 * std::floor((east + 180) / 360);
+  const auto [least, most] = std::minmax_element(longitudes.begin(), longitudes.end());
+  if (*most - *least <= 180)
+    return {*least, *most};
+  std::sort(longitudes.begin(), longitudes.end());
+  double largest = longitudes.front() + 360 - longitudes.back();
+  std::array<double, 2> range{longitudes.front(), longitudes.back()};
+  for (std::size_t k = 1; k < longitudes.size(); ++k)
+    if (const double gap = longitudes[k] - longitudes[k - 1]; gap > largest) {
+      largest = gap;
+      range = {longitudes[k], longitudes[k - 1] + 360};
+    }
+  return range;
+}
+
+/// The middle of the box around points in longitude and latitude. Points around a pole have it there.
+Vec2 middle_of(std::span<const Vec2> points) {
+  std::vector<double> longitudes;
+  double south = 90, north = -90;
+  for (const Vec2 p : points) {
+    longitudes.push_back(p.x);
+    south = std::fmin(south, p.y);
+    north = std::fmax(north, p.y);
+  }
+  const auto [west, east] = range_of(std::move(longitudes));
+  const double latitude = 0.5 * (south + north), longitude = 0.5 * (west + east);
+  if (east - west > 180)
+    return {0, latitude < 0 ? -90.0 : 90.0};
+  return {longitude > 180 ? longitude - 360 : longitude, latitude};
+}
+
+} // namespace
+
 std::string local_plane(std::span<const Vec2> degrees_east_north) {
-  const auto direction = [](Vec2 p) {
-    const SinCos east = sin_cos(p.x * degrees), north = sin_cos(p.y * degrees);
-    return std::array<double, 3>{north.cos * east.cos, north.cos * east.sin, north.sin};
-  };
-  std::array<double, 3> middle{};
-  for (const Vec2 p : degrees_east_north)
-    for (std::size_t k = 0; k < 3; ++k)
-      middle[k] += direction(p)[k];
-  // To a hundredth of a degree: the last bits of sums and functions do not matter, and people can read it.
-  const auto rounded = [](double angle) { return std::round(angle * degrees_per_radian * 100) / 100 + 0.0; };
-  const double east = rounded(angle_of(middle[1], middle[0])),
-               north = rounded(angle_of(middle[2], std::sqrt(middle[0] * middle[0] + middle[1] * middle[1])));
-  const std::array<double, 3> center = direction({east, north});
+  const Vec2 middle = middle_of(degrees_east_north);
+  // To a hundredth of a degree: people can read it.
+  const auto rounded = [](double angle) { return std::round(angle * 100) / 100 + 0.0; };
+  const double east = rounded(middle.x), north = rounded(middle.y);
+  const std::array<double, 3> center = direction_of({east, north});
   for (const Vec2 p : degrees_east_north) {
-    const std::array<double, 3> d = direction(p);
+    const std::array<double, 3> d = direction_of(p);
     const double cosine = d[0] * center[0] + d[1] * center[1] + d[2] * center[2];
     if (!(cosine >= sin_cos(farthest_degrees * degrees).cos))
       throw GeometryError(fmt::format(
-          "'projection = auto' needs a shape whose vertices are within {} degrees of its middle, which is at longitude "
-          "{} and latitude {}; found a vertex at ({}, {}); set a projection by its name, such as EPSG:32633",
+          "'projection = auto' needs a shape whose vertices are within {} degrees of the middle of its box, which is "
+          "at "
+          "longitude {} and latitude {}; found a vertex at ({}, {}); set a projection by its name, such as EPSG:32633",
           farthest_degrees, east, north, p.x, p.y));
   }
   return fmt::format("+proj=stere +lat_0={} +lon_0={} +k=1 +x_0=0 +y_0=0 +datum=WGS84 +units=m +no_defs +type=crs",

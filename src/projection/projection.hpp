@@ -66,8 +66,9 @@ std::string well_known_text(const std::string& crs);
 inline constexpr double farthest_degrees = 45;
 
 /// @brief Returns the reference system of a plane around points on the Earth: a stereographic projection, which
-/// preserves angles, in metres from the middle of the points. Lengths have errors below 1 in 10^4 up to 127 km from the
-/// middle.
+/// preserves angles, in metres from the middle of the points. The middle is that of the smallest box of longitude and
+/// latitude around the points, to 0.01 degrees; the pole if this box is wider than 180 degrees. Lengths have errors
+/// below 1 in 10^4 up to 127 km from the middle.
 /// @param degrees_east_north longitude and latitude of each point; at least one point, finite
 /// @throws GeometryError if a point is farther than farthest_degrees from the middle
 std::string local_plane(std::span<const geometry::Vec2> degrees_east_north);

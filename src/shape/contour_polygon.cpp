@@ -2,6 +2,7 @@
 #include "shape/contour_polygon.hpp"
 
 #include "geometry/predicates.hpp"
+#include "shape/dissolve.hpp"
 #include "shape/lattice_rings.hpp"
 #include "shape/rules.hpp"
 #include "trime/core/error.hpp"
@@ -49,6 +50,9 @@ public:
   Polygon make(std::vector<std::string>& warnings) {
     for (const contours::ContourRing& ring : contour_.rings)
       add_ring(ring, warnings);
+    std::vector<std::string> notes;
+    if (touches_.dissolve)
+      unite(notes);
     for (const RepeatedRing& ring : drop_repeated(rings_))
       warnings.push_back(fmt::format("{}:{}: the ring that starts here was given before, at line {}; it is used once{}",
                                      contour_.source, ring.line, ring.first_line,
@@ -70,6 +74,7 @@ public:
       for (const Segment& s : polygon.grid.segments())
         polygon.markers.push_back(markers[at(given.nearest(0.5 * (s.a + s.b)).segment)]);
     polygon.marker_names = contour_.marker_names;
+    polygon.notes = std::move(notes);
     orient(polygon);
     tell_pieces(polygon, warnings);
     return polygon;
@@ -80,6 +85,7 @@ public:
 private:
   void add_ring(const contours::ContourRing& ring, std::vector<std::string>& warnings);
   void check_turns(const std::vector<Vec2>& p, const std::vector<int>& lines) const;
+  void unite(std::vector<std::string>& notes);
   void separate(const std::vector<SegmentPair>& meetings, SegmentGrid& grid, std::vector<std::string>& warnings);
   void tell_touches(const std::vector<RingTouch>& touches, double gap, std::vector<std::string>& warnings) const;
   void tell_pieces(const Polygon& polygon, std::vector<std::string>& warnings) const;
@@ -158,7 +164,7 @@ void Placement::add_ring(const contours::ContourRing& ring, std::vector<std::str
   if (marked)
     markers.resize(points.size());
   check_turns(points, lines);
-  rings_.push_back({std::move(points), std::move(lines), std::move(markers)});
+  rings_.push_back({std::move(points), std::move(lines), std::move(markers), ring.polygon});
 }
 
 void Placement::check_turns(const std::vector<Vec2>& p, const std::vector<int>& lines) const {
@@ -179,6 +185,18 @@ void Placement::check_turns(const std::vector<Vec2>& p, const std::vector<int>& 
   }
 }
 
+/// Replaces the rings by those around the union of all polygons.
+void Placement::unite(std::vector<std::string>& notes) {
+  Dissolved dissolved = dissolve(rings_, frame_, contour_.source);
+  rings_ = std::move(dissolved.rings);
+  const double scale = normalization_.scale;
+  notes.push_back(
+      fmt::format("{}: {} polygon{} united into an outline of {} rings; they share borders of length {:.4g} "
+                  "and overlap by an area of {:.4g}",
+                  contour_.source, dissolved.polygons, dissolved.polygons == 1 ? " is" : "s are", rings_.size(),
+                  dissolved.shared_length / scale, std::fmax(0, dissolved.overlap) / (scale * scale)));
+}
+
 /// Separates rings that touch, less far where they would cross then.
 void Placement::separate(const std::vector<SegmentPair>& meetings, SegmentGrid& grid,
                          std::vector<std::string>& warnings) {
@@ -186,7 +204,7 @@ void Placement::separate(const std::vector<SegmentPair>& meetings, SegmentGrid& 
   const double least = ShapeRules::touch_gap * frame_.step();
   for (double gap = std::fmax(least, touches_.gap);; gap = std::fmax(least, ShapeRules::smaller_gap * gap)) {
     rings_ = given;
-    const std::vector<RingTouch> touches = part_touches(rings_, meetings, grid, frame_, {touches_.outside, gap});
+    const std::vector<RingTouch> touches = part_touches(rings_, meetings, grid, frame_, {touches_.outside, false, gap});
     SegmentGrid separated(segments_of(rings_));
     if (const std::vector<SegmentPair> left = find_meetings(rings_, separated); left.empty()) {
       tell_touches(touches, gap, warnings);
@@ -225,14 +243,16 @@ void Placement::report(const SegmentGrid& grid, const SegmentPair& pair) const {
   const bool same = ring[0] == ring[1], crossing = meeting_of(s, t) == Meeting::crossing;
   const bool is_map =
       contour_.source.ends_with(".shp") || contour_.source.ends_with("json"); // no lines, no rings of text
-  const char* remedy = same && is_map ? "a ring must neither cross nor touch itself; ogr2ogr -makevalid may repair it"
-                       : same && crossing ? "a ring must not cross itself; is a blank line between two rings missing?"
-                       : same             ? "a ring touches itself; is a blank line between two rings missing?"
-                       : crossing
-                           ? "two rings must not cross; to join areas, make each one a separate part and unite them in "
-                             "'geometry', or dissolve their common borders first, as QGIS does"
-                           : "two rings touch or overlap along an edge, or cross at a vertex; make each one a separate "
-                             "part and unite them in 'geometry', or dissolve their common borders first, as QGIS does";
+  const char* remedy =
+      !same && is_map    ? "polygons of a map must neither overlap nor share borders; set 'overlap = union' in the "
+                           "section of this contour to unite them"
+      : same && is_map   ? "a ring must neither cross nor touch itself; ogr2ogr -makevalid may repair it"
+      : same && crossing ? "a ring must not cross itself; is a blank line between two rings missing?"
+      : same             ? "a ring touches itself; is a blank line between two rings missing?"
+      : crossing         ? "two rings must not cross; to join areas, make each one a separate part and unite them in "
+                           "'geometry', or dissolve their common borders first, as QGIS does"
+                         : "two rings touch or overlap along an edge, or cross at a vertex; make each one a separate "
+                           "part and unite them in 'geometry', or dissolve their common borders first, as QGIS does";
   throw GeometryError(fmt::format("{}:{}: the edge that starts here {} the edge that starts at line {} near {}; {}",
                                   contour_.source, line[0], crossing ? "crosses" : "touches", line[1],
                                   in_file(meeting_point(s, t)), remedy));
@@ -294,6 +314,10 @@ void Placement::orient(Polygon& polygon) {
 Polygon make_contour_polygon(const contours::Contour& contour, const contours::Normalization& normalization,
                              const Frame& frame, std::vector<std::string>& warnings, const TouchOptions& touches) {
   return Placement(contour, normalization, frame, touches).make(warnings);
+}
+
+void orient_rings(Polygon& polygon) {
+  Placement::orient(polygon);
 }
 
 Polygon make_simple_polygon(const std::vector<Vec2>& ring) {

@@ -23,4 +23,7 @@ Polygon make_contour_polygon(const contours::Contour& contour, const contours::N
 /// @pre the ring has at least three vertices, which are not collinear
 Polygon make_simple_polygon(const std::vector<geometry::Vec2>& ring);
 
+/// Sets Polygon::Ring::reversed of all rings: a ring inside an odd number of other rings is a hole.
+void orient_rings(Polygon& polygon);
+
 } // namespace trime::shape

@@ -18,6 +18,7 @@ struct LatticeRing {
   std::vector<geometry::Vec2> points;
   std::vector<int> lines;
   std::vector<int> markers{}; ///< markers as in ContourRing; empty after rings were separated
+  int polygon = 0;            ///< number as in ContourRing
 };
 
 enum class Meeting { none, touch, crossing };

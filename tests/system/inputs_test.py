@@ -339,6 +339,68 @@ class Maps(unittest.TestCase):
             self.assertRegex(told, r'ID\["EPSG",4326\]|WGS 84')
             self.assertIn(f"Feature Count: {len(triangles) + len(edges)}", told)
 
+    def test_polygons_of_one_map_are_united(self):
+        def square(x, y, side):
+            return [[x, y], [x + side, y], [x + side, y + side], [x, y + side], [x, y]]
+
+        def feature(name, *rings):
+            return {"type": "Feature", "properties": {"name": name},
+                    "geometry": {"type": "Polygon", "coordinates": rings}}
+        tiles = [feature("west" if i < 12 else "east", square(i, j, 1)) for i in range(25) for j in range(20)]
+        gap = [[5, 0], [10, 0], [10, 5], [5, 5], [5.001, 2.5], [5, 0]]
+        nested = [feature("a", square(0, 0, 5)), feature("b", square(3, 2, 5)), feature("c", square(1, 1, 1)),
+                  feature("d", square(20, 0, 9), square(22, 2, 4)), feature("e", square(23, 3, 1))]
+        cases = ((tiles, r"500 polygons are united .* 1 rings; .* length 955 and overlap by an area of 0\n", 1, 0, 500),
+                 ([feature("a", square(0, 0, 5)), feature("b", square(5, 5, 5))], "2 polygons are united", 2, 0, 50),
+                 ([feature("a", square(0, 0, 5)), feature("b", gap)], "2 polygons are united", 2, 0, 49.9975),
+                 (nested, r"5 polygons are united .* 4 rings; .* overlap by an area of 7\n", 3, 1, 25 + 25 - 6 + 66))
+        with Workspace() as work:
+            (work / "case.ini").write_text("[shape]\ngeometry = land\n[shape.land]\ntype = contour\nattribute = name\n"
+                                           "file = map.geojson\n[meshing]\npoints = 1000\n")
+            for features, said, pieces, holes, area in cases:
+                (work / "map.geojson").write_text(json.dumps({"type": "FeatureCollection", "features": features}))
+                if pieces != 2:  # polygons that only touch are accepted in any case
+                    done = run(work / "case.ini", "--validate")
+                    self.assertEqual(done.returncode, 3)
+                    self.assertIn("set 'overlap = union'", done.stderr)
+                done = run(work / "case.ini", "shape.land.overlap=union", "meshing.keep_features=true",
+                           f"output.directory={work}", "output.overwrite=true", "--verbose")
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertRegex(done.stdout, said)
+                self.assertRegex(done.stdout, rf"boundary: {pieces} components?, {holes} holes?")
+                with h5py.File(work / "case.h5") as file:
+                    points, triangles = file["Mesh/mesh/geometry"][:], file["Mesh/mesh/topology"][:]
+                a, b, c = (points[triangles[:, k]] for k in range(3))
+                made = ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]).sum() / 2
+                if pieces != 2:  # polygons that touch are separated by strips that the mesh does not cover
+                    self.assertAlmostEqual(made, area, delta=1e-6 * area)
+
+    def test_long_edges_are_straight_in_degrees(self):
+        box = [[-13, 76], [13, 76], [13, 78], [-13, 78], [-13, 76]]
+        land = [[-5.1, 76], [3, 76], [0, 77], [-5.1, 76]]
+        cut = [[-5, 76], [7, 76], [5, 76.6], [0, 77], [-4, 76.4], [-5, 76]]
+        config = ("[shape]\ngeometry = difference(box, land)\nprojection = auto\n[shape.box]\ntype = contour\n"
+                  "file = box.geojson\n[shape.land]\ntype = contour\nfile = land.geojson\n[meshing]\npoints = 2000\n")
+        with Workspace() as work:
+            (work / "case.ini").write_text(config)
+            (work / "box.geojson").write_text(json.dumps({"type": "Polygon", "coordinates": [box]}))
+            for ring, corners in ((cut, 8), (cut[::-1], 8), (land, 7)):
+                (work / "land.geojson").write_text(json.dumps({"type": "Polygon", "coordinates": [ring]}))
+                done = run(work / "case.ini", f"output.directory={work}", "output.overwrite=true",
+                           "output.formats=geojson", "--verbose")
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertRegex(done.stdout, r"\d+ long edges of the contours are divided by \d+ more vertices")
+                self.assertIn("+lat_0=77 +lon_0=0 ", done.stdout)
+                self.assertNotIn("warning", done.stdout + done.stderr)
+                self.assertRegex(done.stdout, rf"boundary: 1 component, 0 holes, \d+ sites, {corners} corners")
+                _, edges = self.places(work / "case.geojson")
+                low = edges[numpy.abs(edges[:, :, 1] - 76).max(axis=1) < 0.01].reshape(-1, 2)
+                self.assertLess(low[:, 0].min(), -12.9)  # along all of the parallel, to 1e-6 of 680 km
+                self.assertLess(numpy.abs(low[:, 1] - 76).max(), 0.7 / 111e3)
+                places = edges.reshape(-1, 2)
+                for vertex in box[:4]:
+                    self.assertLess(numpy.abs(places - vertex).max(axis=1).min(), 1e-9)
+
     def test_a_named_projection_is_that_of_gdal(self):
         square = [[9.0, 48.0], [9.4, 48.0], [9.4, 48.3], [9.0, 48.3], [9.0, 48.0]]
         text = json.dumps({"type": "Polygon", "coordinates": [square]})

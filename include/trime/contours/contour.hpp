@@ -20,6 +20,7 @@ struct ContourRing {
   std::vector<int> markers{};
   /// The vertices as they are in the file, if `points` are their projection; otherwise empty.
   std::vector<geometry::Vec2> in_file{};
+  int polygon = 0; ///< number of the polygon of a map to which the ring belongs, from 1; 0 for lines and other files
 };
 
 /// Rings in the coordinates of their file, unless they are projected. A ring is a hole if it lies inside of an odd

@@ -34,6 +34,7 @@ struct Polygon {
   std::vector<Ring> rings;
   std::vector<int> markers{};              ///< marker of each segment; 0 for no marker; empty if all are 0
   std::vector<std::string> marker_names{}; ///< names of the markers, as in Contour::marker_names
+  std::vector<std::string> notes{};        ///< sentences for the log about what was dissolved
 };
 
 /// Returns the four points of a circle at the angles 0, pi/2, pi, 3 pi/2. They are exact.
@@ -42,9 +43,10 @@ std::array<geometry::Vec2, 4> quadrant_vertices(const Circle& circle);
 /// @brief Returns the counter-clockwise arc of `circle` from a to b, less than a full turn.
 geometry::Piece make_arc(const Circle& circle, geometry::Vec2 a, geometry::Vec2 b);
 
-/// How rings of a contour are separated where they touch.
+/// How rings of a contour are separated where they touch, and whether its polygons are united first.
 struct TouchOptions {
-  bool outside = false; ///< the contour is subtracted: what lies around it is separated there, and not its area
+  bool outside = false;  ///< the contour is subtracted: what lies around it is separated there, and not its area
+  bool dissolve = false; ///< polygons of the contour that overlap or share borders are united
   double gap = 0; ///< distance between the separated vertices, if the rings leave room for it; at least 1e-12 of the
                   ///< container
 };

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 namespace trime::projection {
 namespace {
@@ -50,6 +51,19 @@ TEST(Projection, TheMiddleIsAcrossTheDateLineWherePointsAre) {
   EXPECT_NE(local_plane(points).find("180 "), std::string::npos) << local_plane(points);
   const std::array<Vec2, 2> far{Vec2{0, 0}, Vec2{100, 0}};
   EXPECT_THROW(local_plane(far), GeometryError);
+}
+
+TEST(Projection, TheMiddleIsThatOfTheBox) {
+  const auto has = [](const std::vector<Vec2>& points, const std::string& middle) {
+    return local_plane(points).find(middle) != std::string::npos;
+  };
+  EXPECT_TRUE(has({{4, 60}, {6, 60}, {6, 61}, {4, 61}}, "+lat_0=60.5 +lon_0=5 "));
+  EXPECT_TRUE(has({{4, 60}, {4.1, 60}, {4.2, 60}, {4.3, 60}, {6, 61}}, "+lat_0=60.5 +lon_0=5 ")); // however they lie
+  EXPECT_TRUE(has({{179, -17}, {-178, -16}}, "+lat_0=-16.5 +lon_0=-179.5 "));
+  EXPECT_TRUE(has({{179, -17}, {182, -16}}, "+lat_0=-16.5 +lon_0=-179.5 "));
+  EXPECT_TRUE(has({{358, 10}, {3, 12}}, "+lat_0=11 +lon_0=0.5 "));
+  EXPECT_TRUE(has({{0, 60}, {90, 60}, {180, 70}, {-90, 60}}, "+lat_0=90 +lon_0=0 "));
+  EXPECT_TRUE(has({{-180, -60}, {-60, -60}, {60, -75}, {180, -60}}, "+lat_0=-90 +lon_0=0 "));
 }
 
 TEST(Projection, TellsHowLengthsAreStretched) {
