@@ -11,8 +11,8 @@ PROGRAM = os.environ.get("TRIME_PROGRAM", str(ROOT / "build" / "ci" / "trime_mpi
 MPIEXEC = os.environ.get("TRIME_MPIEXEC", "mpirun")
 
 
-# Open MPI starts in 0.1 s in place of 0.5 s if it looks for no network, and if a process that no mpirun started starts no
-# daemon.
+# Open MPI starts in 0.1 s in place of 0.5 s if it looks for no network, and if it starts no daemon for a process that
+# runs without mpirun.
 QUICK_START = {"OMPI_MCA_pml": "ob1", "OMPI_MCA_btl": "self,vader", "OMPI_MCA_osc": "^ucx",
                "OMPI_MCA_ess_singleton_isolated": "1"}
 
