@@ -344,6 +344,22 @@ const Option table[] = {
                 "`text`: the files of TriMe++, in the directory NAME. The other formats are for other programs; their "
                 "files hold the final mesh and the names of its boundary"},
     {.section = "output",
+     .key = "open_boundary",
+     .kind = OptionKind::text,
+     .fallback = "auto",
+     .meaning =
+         "for `fort14`: names of the parts of the boundary that are open, separated by commas: the full name, the "
+         "text before its dot, or the text behind it; auto: parts with the word open, ocean or sea; none: no part "
+         "is open"},
+    {.section = "output",
+     .key = "coordinates",
+     .kind = OptionKind::word,
+     .fallback = "plane",
+     .choices = "plane degrees",
+     .meaning =
+         "coordinates in files of `fort14` and `2dm`; plane: those of the mesh; degrees: longitude and latitude, "
+         "for meshes of contours that have a projection"},
+    {.section = "output",
      .key = "interval",
      .kind = OptionKind::integer,
      .fallback = "-1",
