@@ -347,10 +347,8 @@ const Option table[] = {
      .key = "open_boundary",
      .kind = OptionKind::text,
      .fallback = "auto",
-     .meaning =
-         "for `fort14`: names of the parts of the boundary that are open, separated by commas: the full name, the "
-         "text before its dot, or the text behind it; auto: parts with the word open, ocean or sea; none: no part "
-         "is open"},
+     .meaning = "names of the open parts of the boundary, for `fort14`, separated by commas. auto: parts with the word "
+                "open, ocean or sea; none: no part is open"},
     {.section = "output",
      .key = "coordinates",
      .kind = OptionKind::word,
