@@ -11,7 +11,7 @@ namespace trime_check {
 
 struct ContourRings {
   std::vector<Ring> rings;
-  std::string reason; ///< why there are none; empty: there are
+  std::string reason; ///< why no ring was read; empty: all are here
 };
 
 /// Reads a contour file by its ending. Rings are as the file has them, without the repeated first vertex.
