@@ -16,7 +16,7 @@ namespace {
 
 struct Flags {
   bool help_config = false, version = false, validate = false, dry_run = false, print_config = false, quiet = false,
-       verbose = false, overwrite = false;
+       verbose = false, overwrite = false, degrees = false;
   std::optional<std::string> threads, level, time_limit;
 };
 
@@ -34,6 +34,7 @@ void declare(CLI::App& app, CommandLine& line, Flags& flags) {
                "would keep every feature of the shape");
   app.add_flag("--print-config", flags.print_config, "print the config with all defaults, as a complete file");
   app.add_flag("--overwrite", flags.overwrite, "with convert: replace the file OUT if it exists");
+  app.add_flag("--degrees", flags.degrees, "with convert: write longitude and latitude into .14 and .2dm");
   app.add_option("--report", line.report, "write the report of the run to this file, as JSON");
   app.add_option("--record", line.report)->group(""); // its name in earlier versions; not in the help
   app.add_option("--threads", flags.threads, "threads per rank: sets parallel.setup_threads and parallel.mesh_threads");
@@ -70,6 +71,9 @@ void take_files(CommandLine& line, const Flags& flags) {
   line.overwrite = flags.overwrite;
   if (flags.overwrite && !converts)
     throw ConfigError("'--overwrite' belongs to 'trime_mpi convert'; for a run, set output.overwrite=true");
+  line.in_degrees = flags.degrees;
+  if (flags.degrees && !converts)
+    throw ConfigError("'--degrees' belongs to 'trime_mpi convert'; for a run, set output.coordinates=degrees");
   if (!converts && line.action != Action::info)
     return;
   line.files = std::exchange(line.overrides, {});
@@ -77,7 +81,7 @@ void take_files(CommandLine& line, const Flags& flags) {
     throw ConfigError(fmt::format("'trime_mpi {}' needs {}, found {} file{}; usage: trime_mpi {}", line.config,
                                   converts ? "two files" : "one file", line.files.size(),
                                   line.files.size() == 1 ? "" : "s",
-                                  converts ? "convert IN.h5 OUT.ENDING [--overwrite]" : "info FILE.h5"));
+                                  converts ? "convert IN.h5 OUT.ENDING [--overwrite] [--degrees]" : "info FILE.h5"));
 }
 
 /// Returns the seconds of HH:MM:SS. @throws ConfigError

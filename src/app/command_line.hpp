@@ -16,6 +16,7 @@ struct CommandLine {
   std::vector<std::string> overrides; ///< section.key=value, including those that follow from options such as --points
   std::vector<std::string> files;     ///< paths given to `convert` and `info`
   bool overwrite = false;             ///< for `convert`: an existing file may be replaced
+  bool in_degrees = false;            ///< for `convert`: longitude and latitude in fort14 and 2dm
   std::string report;                 ///< path of the JSON file for the numbers of the run; empty: no such file
   std::string restart;   ///< path of the checkpoint from which the run continues, or `auto`; empty: the run starts from
                          ///< the beginning

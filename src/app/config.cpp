@@ -338,6 +338,21 @@ void check_name(const Settings& settings, const std::string& name, Diagnostics& 
                              shown(name), formats::longest_name, name.size(), io::longest_file_name));
 }
 
+/// Names that commas separate, without the blanks around them; nothing for auto, no name for none.
+std::optional<std::vector<std::string>> read_open_boundary(const std::string& text) {
+  if (text == "auto")
+    return std::nullopt;
+  std::vector<std::string> names;
+  for (std::size_t begin = 0; text != "none" && begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::size_t first = std::min(text.find_first_not_of(" \t", begin), end);
+    if (first < end)
+      names.push_back(text.substr(first, text.find_last_not_of(" \t", end - 1) + 1 - first));
+    begin = end + 1;
+  }
+  return names;
+}
+
 void read_output(const Settings& settings, RunOptions& options, Diagnostics& problems) {
   io::MeshFileOptions& file = options.output.file;
   file.directory = settings.text("output", "directory");
@@ -356,6 +371,8 @@ void read_output(const Settings& settings, RunOptions& options, Diagnostics& pro
                  fmt::format("'formats = {}' in [output]: a periodic container can be written as {} only",
                              settings.text("output", "formats"),
                              formats::words_of(&formats::FormatInfo::holds_periodic, "and")));
+  options.output.names.open_boundary = read_open_boundary(settings.text("output", "open_boundary"));
+  options.output.names.in_degrees = settings.text("output", "coordinates") == "degrees";
   options.mesh.snapshot_interval = interval == -1 ? 0 : static_cast<int>(interval);
   options.output.steps = options.mesh.snapshot_interval != 0;
   check_name(settings, file.name, problems);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <map>
+#include <sstream>
 
 namespace trime::app {
 namespace {
@@ -27,6 +28,13 @@ formats::Names names_of(const Metadata& metadata) {
                        io::column_of<std::string>(metadata, "tags", "region_name"),
                        {io::attribute_of<double>(metadata, "period_x"), io::attribute_of<double>(metadata, "period_y")},
                        value_text(metadata, "crs")};
+  for (const io::Attribute& attribute : metadata.attributes)
+    if (const auto* text = std::get_if<std::string>(&attribute.value); text && attribute.name == "open_boundary") {
+      std::istringstream stream(*text);
+      names.open_boundary.emplace();
+      for (std::string name; std::getline(stream, name, ',');)
+        names.open_boundary->push_back(name);
+    }
   return names;
 }
 
@@ -135,7 +143,8 @@ void convert(const CommandLine& line, io::RunFiles* files, const comm::Communica
   const formats::Format format = format_of_output(to);
   formats::refuse_to_replace(formats::paths_of(format, to), line.overwrite, "add --overwrite to replace it", comm);
   const Metadata metadata = io::read_metadata(from, {"tags"}, comm);
-  const formats::Names names = names_of(metadata);
+  formats::Names names = names_of(metadata);
+  names.in_degrees = line.in_degrees;
   const mesh::DistributedMesh mesh = io::read_mesh(from, metadata, comm);
   if (is_marked(metadata))
     log.warning("{} holds a mesh that is NOT complete, see 'trime_mpi info {}'", from, from);

@@ -368,6 +368,20 @@ const Option table[] = {
                 "`text`: the files of TriMe++, in the directory NAME. The other formats are for other programs; their "
                 "files hold the final mesh and the names of its boundary"},
     {.section = "output",
+     .key = "open_boundary",
+     .kind = OptionKind::text,
+     .fallback = "auto",
+     .meaning = "names of the open parts of the boundary, for `fort14`, separated by commas. auto: parts with the word "
+                "open, ocean or sea; none: no part is open"},
+    {.section = "output",
+     .key = "coordinates",
+     .kind = OptionKind::word,
+     .fallback = "plane",
+     .choices = "plane degrees",
+     .meaning =
+         "coordinates in files of `fort14` and `2dm`; plane: those of the mesh; degrees: longitude and latitude, "
+         "for meshes of contours that have a projection"},
+    {.section = "output",
      .key = "interval",
      .kind = OptionKind::integer,
      .fallback = "-1",

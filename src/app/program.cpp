@@ -20,6 +20,8 @@
 #include "core/thread_loop.hpp"
 #include "fitting/points_of_length.hpp"
 #include "fitting/rules.hpp"
+#include "formats/degrees.hpp"
+#include "formats/open_boundary.hpp"
 #include "io/report_file.hpp"
 #include "polygon/polygon.hpp"
 #include "sites/rules.hpp"
@@ -158,8 +160,13 @@ formats::SeriesOptions series_options(const Job& job, const ShapeInput& input) {
   formats::SeriesOptions options = job.options.output;
   options.file.part_markers = input.domain().part_markers();
   options.file.run_files = job.files;
-  options.names = {
-      boundary.part_names, {job.options.geometry}, {boundary.periods.x, boundary.periods.y}, input.map.crs};
+  formats::Names& names = options.names;
+  names.parts = boundary.part_names;
+  names.regions = {job.options.geometry};
+  names.period = {boundary.periods.x, boundary.periods.y};
+  names.crs = input.map.crs;
+  formats::open_parts(names); // refuses unknown names, on all ranks
+  formats::check_degrees(names);
   return options;
 }
 
@@ -328,6 +335,8 @@ ExitCode MeshRun::run() {
     job_.log.info("{}", run_report(result, sizes, measured, files, input_.normalized));
   else
     job_.log.summary("{}", run_summary({provenance, result, sizes, measured, files, edges}));
+  if (job_.options.write && job_.options.output.wants(formats::Format::adcirc))
+    job_.log.summary("fort14: {}", formats::open_boundary_text(series_options(job_, input_).names, edges));
   if (!is_complete(result))
     job_.log.warning("{}", incompleteness(result, job_.options.write));
   return exit_code(result);

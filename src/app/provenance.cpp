@@ -5,6 +5,8 @@
 #include "app/run_limit.hpp"
 #include "record/groups.hpp"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cstdlib>
 
@@ -80,9 +82,16 @@ Attributes joined(std::initializer_list<Attributes> lists) {
   return all;
 }
 
+/// The open boundary, for `convert`: only where the user has chosen it.
+Attributes open_attributes(const Provenance& p) {
+  if (const auto& names = p.options.output.names.open_boundary)
+    return {{"open_boundary", fmt::format("{}", fmt::join(*names, ","))}};
+  return {};
+}
+
 /// Describes what is known before the run.
 Attributes given_attributes(const Provenance& p) {
-  return joined({record::format_attributes(), run_attributes(p), record::place_attributes(p.origin),
+  return joined({record::format_attributes(), run_attributes(p), open_attributes(p), record::place_attributes(p.origin),
                  normalization_attributes(p.normalized)});
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shape.hpp"
 
+#include "contour_files.hpp"
 #include "report.hpp"
 
 #include <boost/geometry.hpp>
@@ -52,7 +53,7 @@ struct Source {
   std::vector<Ring> rings; // of all but circles
   Point center;
   double radius = 0;
-  bool normalised = false;
+  bool normalised = false, has_names = false;
 
   Box box() const {
     return type == "circle" ? Box{{center.x - radius, center.y - radius}, {center.x + radius, center.y + radius}}
@@ -66,7 +67,7 @@ bool is_projected(const ConfigText& config) {
 
 Source read_part(const ConfigText& config, const std::string& name) {
   const std::string section = "shape." + name;
-  Source part{name, config.value(section, "type"), "", {}, {}, 0, config.is_true(section, "normalize")};
+  Source part{name, config.value(section, "type"), "", {}, {}, 0, config.is_true(section, "normalize"), false};
   const auto number = [&](const char* key) {
     if (const std::optional<double> value = config.number(section, key))
       return *value;
@@ -81,15 +82,16 @@ Source read_part(const ConfigText& config, const std::string& name) {
     part.radius = number("radius");
   } else if (part.type == "contour") {
     const std::string path = config.path(section, "file");
-    const std::optional<std::string> text = read_text(path);
-    if (is_projected(config))
+    part.has_names = !path.ends_with(".xy");
+    if (!config.value(section, "overlap").empty() || !config.value(section, "repair").empty()) {
+      part.reason = fmt::format("{}: trime_check cannot join or repair its rings", path);
+    } else if (is_projected(config)) {
       part.reason = fmt::format("{}: trime_check cannot project its coordinates", path);
-    else if (!path.ends_with(".xy") && !path.ends_with(".txt") && !path.ends_with(".dat"))
-      part.reason = fmt::format("{}: trime_check reads only contours with lines 'x y'", path);
-    else if (!text)
-      part.reason = fmt::format("{} cannot be read", path);
-    else if (part.rings = read_rings(*text); part.rings.empty())
-      part.reason = fmt::format("{} has no rings", path);
+    } else {
+      ContourRings found = read_contour(path);
+      part.rings = std::move(found.rings);
+      part.reason = std::move(found.reason);
+    }
   } else
     part.reason = fmt::format("trime_check cannot compute the curve of a part of type '{}'", part.type);
   return part;
@@ -275,7 +277,7 @@ const Part* Shape::part_of_label(const std::string& label) const {
   if (const Part* exact = part(label))
     return exact;
   const Part* whole = part(label.substr(0, label.find('.')));
-  return whole && !whole->curve ? whole : nullptr;
+  return whole && (!whole->curve || whole->has_names) ? whole : nullptr;
 }
 
 namespace {
@@ -312,7 +314,7 @@ void read_fixed_points(Shape& shape, const ConfigText& config) {
 
 /// Appends the part of a source, and normalises the fixed points if they go with it.
 void add_part(Shape& shape, const Source& source, bool has_fixed_points) {
-  Part part{source.name, nullptr, source.reason};
+  Part part{source.name, nullptr, source.reason, source.has_names};
   std::vector<Ring> rings = source.rings;
   if (source.normalised && source.reason.empty()) {
     const Normalisation fit(source.box(), shape.container);
@@ -351,7 +353,7 @@ Shape make_shape(const ConfigText& config, const std::vector<Point>& mesh) {
   const std::string companion = config.value("meshing", "fixed_points_normalize_with");
   for (const Source& source : sources)
     add_part(shape, source, source.name == companion);
-  shape.parts.push_back({"domain", make_container(shape.container, shape.periods), ""});
+  shape.parts.push_back({"domain", make_container(shape.container, shape.periods), "", false});
   shape.finder = std::make_unique<PartFinder>(shape.parts);
   return shape;
 }

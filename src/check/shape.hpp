@@ -15,6 +15,7 @@ struct Part {
   std::string name;
   std::unique_ptr<Curve> curve; ///< empty for a formula, or for a kind of file that trime_check cannot read
   std::string reason;           ///< why there is no curve
+  bool has_names = false;       ///< whether its file can give names or markers to pieces of the curve
 };
 
 /// Finds the parts near a place.
@@ -46,7 +47,7 @@ struct Shape {
 
   double side() const { return std::fmax(container.max.x - container.min.x, container.max.y - container.min.y); }
   /// @brief Returns the part to which a label of a mesh file belongs. A label is the name of a part, or the name of a
-  /// contour that trime_check does not read, followed by a point and a name or marker of its features. Returns null if
+  /// contour followed by a point and a name or marker of its features. Returns null if
   /// no part has that name.
   const Part* part_of_label(const std::string& label) const;
   /// Returns whether the region contains this part.

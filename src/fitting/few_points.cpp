@@ -91,6 +91,12 @@ TooFewPoints too_steep_size(const LayoutContext& context, std::span<const sizing
                   *context.options.gradation)};
 }
 
+/// Rounds a number of points up to two digits.
+double rounded_up(double points) {
+  const double unit = std::pow(10, std::max(0.0, std::floor(std::log10(std::max(points, 1.0))) - 1));
+  return unit * std::ceil(points / unit);
+}
+
 std::optional<TooFewPoints> too_thin(const LayoutContext& context, const Stage& stage) {
   const geometry::Boundary& given = context.given_boundary;
   if (!stage.curves || !(stage.curves->area > largest_growth * given.area))
@@ -101,9 +107,9 @@ std::optional<TooFewPoints> too_thin(const LayoutContext& context, const Stage& 
                                          width, stage.curves->area / given.area);
   if (context.options.points)
     return TooFewPoints{
-        fmt::format("points = {} are too few {}; expected at least about {:.2g} points; use more points, or make the "
+        fmt::format("points = {} are too few {}; expected at least about {:.0f} points; use more points, or make the "
                     "shape wider (are the coordinates in the same unit?)",
-                    *context.options.points, growth, points_of_length(given, size))};
+                    *context.options.points, growth, rounded_up(points_of_length(given, size)))};
   return TooFewPoints{fmt::format("edge_length = {} is too long {}; expected at most about {:.2g}; make it shorter, or "
                                   "make the shape wider (are the coordinates in the same unit?)",
                                   *context.options.edge_length, growth, size)};

@@ -1,25 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // fort.14 of ADCIRC (user's manual, "ADCIRC Grid and Boundary Information File"), which other coastal models read too:
-// depth 0; boundary segments by the names of the parts. A part is open where its name holds "open", "ocean" or "sea";
-// else it is land: an island where it goes round a hole, mainland elsewhere.
+// depth 0; boundary segments by the names of the parts. A part that is not open is land: an island where it goes round
+// a hole, mainland elsewhere.
+#include "formats/degrees.hpp"
 #include "formats/node_strings.hpp"
+#include "formats/open_boundary.hpp"
 
 #include <fmt/format.h>
-
-#include <algorithm>
-#include <cctype>
 
 namespace trime::formats {
 namespace {
 
 constexpr int mainland = 20, island = 21; // with the natural condition of no flow
-
-bool is_open(std::string name) {
-  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
-  constexpr std::array<const char*, 3> words{"open", "ocean", "sea"};
-  return std::any_of(words.begin(), words.end(),
-                     [&](const char* word) { return name.find(word) != std::string::npos; });
-}
 
 struct Group {
   std::string text;
@@ -36,10 +28,12 @@ struct Group {
 };
 
 std::string boundary_text(const std::vector<NodeString>& strings, const Names& names) {
+  const std::vector<bool> is_open = open_parts(names);
   Group open, land;
   for (const NodeString& string : strings) {
-    const std::string& name = names.parts[static_cast<std::size_t>(string.label - 1)];
-    if (is_open(name))
+    const auto part = static_cast<std::size_t>(string.label - 1);
+    const std::string& name = names.parts[part];
+    if (is_open[part])
       open.add(string, "", name);
     else
       land.add(string, fmt::format(" {}", string.is_island ? island : mainland), name);
@@ -54,9 +48,7 @@ std::vector<FilePlan> plan_adcirc(const ExchangeMesh& mesh, const std::string& p
   const std::string& title = mesh.names().regions.empty() ? path : mesh.names().regions[0];
   return {{path,
            {mesh.once(fmt::format("{}\n{} {}\n", title, mesh.triangles(), mesh.points())),
-            mesh.point_rows([](std::int64_t, GlobalId id, geometry::Vec2 p, std::string& to) {
-              append_line(to, id + 1, p.x, p.y, 0.0);
-            }),
+            numbered_points(mesh, "", "fort14"),
             mesh.triangle_rows([](std::int64_t, GlobalId id, const std::array<GlobalId, 3>& corners, std::string& to) {
               append_line(to, id + 1, std::int64_t{3}, corners[0] + 1, corners[1] + 1, corners[2] + 1);
             }),

@@ -2,9 +2,9 @@
 // GeoJSON (RFC 7946) for GDAL and QGIS: a polygon for each triangle, then a line for each boundary edge. Coordinates
 // are longitude and latitude where the reference system of the mesh is known, else those of the mesh.
 #include "comm/agree.hpp"
+#include "formats/degrees.hpp"
 #include "formats/exchange_mesh.hpp"
 #include "io/point_lookup.hpp"
-#include "projection/projection.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -34,10 +34,8 @@ public:
       others_.push_back(others[id].position);
     if (!exchange.names().crs.empty())
       comm::run_agreed(exchange.comm(), [&] {
-        const projection::Transform transform(projection::lon_lat, exchange.names().crs);
         for (std::vector<Vec2>* places : {&own_, &others_})
-          for (Vec2& p : *places)
-            p = on_earth(transform, p);
+          to_degrees(*places, exchange.names().crs, "geojson");
       });
   }
 
@@ -48,13 +46,6 @@ public:
   }
 
 private:
-  static Vec2 on_earth(const projection::Transform& transform, Vec2 p) {
-    if (const auto place = transform.undo(p))
-      return *place;
-    throw FileError(fmt::format(
-        "the point {} of the mesh has no longitude and latitude; use another format than geojson", Place(p)));
-  }
-
   GlobalId first_;
   std::vector<GlobalId> foreign_;
   std::vector<Vec2> own_, others_; // by point of the slab; by place in foreign_

@@ -31,6 +31,14 @@ std::vector<std::size_t> parts_with_edges(const ExchangeMesh& mesh) {
   return parts;
 }
 
+/// meshio knows a group by its name alone: a region that is called like a part of the boundary gets "region" in front.
+std::string surface_name(std::string name, const ExchangeMesh& mesh, const std::vector<std::size_t>& parts) {
+  const auto is_taken = [&](std::size_t part) { return mesh.names().parts[part] == name; };
+  while (std::any_of(parts.begin(), parts.end(), is_taken))
+    name = "region " + name;
+  return name;
+}
+
 std::string physical_names(const ExchangeMesh& mesh) {
   const Names& names = mesh.names();
   const std::vector<std::size_t> parts = parts_with_edges(mesh);
@@ -38,7 +46,7 @@ std::string physical_names(const ExchangeMesh& mesh) {
   for (const std::size_t k : parts)
     text += fmt::format("{} {} {}\n", curve, k + 1, quoted(names.parts[k]));
   for (std::size_t k = 0; k < names.regions.size(); ++k)
-    text += fmt::format("{} {} {}\n", surface, k + 1, quoted(names.regions[k]));
+    text += fmt::format("{} {} {}\n", surface, k + 1, quoted(surface_name(names.regions[k], mesh, parts)));
   return text + "$EndPhysicalNames\n";
 }
 

@@ -2,6 +2,7 @@
 // 2DM of Aquaveo's SMS, which QGIS (MDAL), Telemac's and SRH-2D's tools read: elements with their region as material,
 // points at height 0, and a node string for each run of boundary edges of one part. The name of the mesh lists the
 // names.
+#include "formats/degrees.hpp"
 #include "formats/node_strings.hpp"
 
 #include <fmt/format.h>
@@ -44,11 +45,7 @@ std::vector<FilePlan> plan_sms(const ExchangeMesh& mesh, const std::string& path
                   to += "E3T ";
                   append_line(to, id + 1, corners[0] + 1, corners[1] + 1, corners[2] + 1, mesh.region(row));
                 }),
-            mesh.point_rows([](std::int64_t, GlobalId id, geometry::Vec2 p, std::string& to) {
-              to += "ND ";
-              append_line(to, id + 1, p.x, p.y, 0.0);
-            }),
-            mesh.once(string_lines(node_strings(mesh)))}}};
+            numbered_points(mesh, "ND ", "2dm"), mesh.once(string_lines(node_strings(mesh)))}}};
 }
 
 } // namespace trime::formats

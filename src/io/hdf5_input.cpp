@@ -23,9 +23,19 @@ void check_is_a_file(const std::string& path) {
     throw FileError(fmt::format("cannot open {}: {}; check the path and the permissions", path, std::strerror(errno)));
 }
 
+/// The views of a mesh file are text, about which HDF5 would say only that they have no signature.
+void check_is_no_view(const std::string& path) {
+  for (const char* ending : {".xdmf", ".xmf"})
+    if (path.ends_with(ending))
+      throw FileError(fmt::format("cannot read {}: it only describes a mesh file to other programs; open {}.h5, which "
+                                  "has the mesh",
+                                  path, path.substr(0, path.rfind('.'))));
+}
+
 /// Opened for reading; file systems without locks do not matter.
 Hdf5File open_file(const std::string& path) {
   check_is_a_file(path);
+  check_is_no_view(path);
   silence_hdf5();
   const Hdf5Properties access(H5Pcreate(H5P_FILE_ACCESS), "make properties of HDF5");
   checked(H5Pset_file_locking(access, true, true), "set the locks of HDF5");

@@ -106,6 +106,7 @@ meshing.initial_fraction=1.1  meshing.narrow=open  meshing.keep_features=please 
 meshing.worst_alpha=0.5  meshing.stop_tolerance=0  meshing.cleanup=never
 domain.periodic_x=maybe  domain.cells_x=0  domain.cells_y=2.5  domain.x_max=left
 parallel.mesh_threads=5000  parallel.setup_threads=-2  output.interval=-3  output.overwrite=perhaps
+output.coordinates=metres
 log.level=loud  log.interval=-1  sizing.type=smooth  sizing.min_size=0  sizing.max_size=-1  shape.part.type=blob
 """.split()
 # Other words of the command line, and what the message holds.

@@ -11,6 +11,7 @@ import unittest
 import h5py
 
 from check_test import check
+from dirty_inputs import HOLE, POLY, SQUARE, geojson
 from trime_run import run
 
 
@@ -24,6 +25,9 @@ def circle(x, y, radius, name="b"):
 
 def contour(file, name="a"):
     return f"[shape.{name}]\ntype = contour\nfile = {file}\n"
+
+
+HOLED = {"it.poly": POLY, "it.geojson": geojson(SQUARE + SQUARE[:1], HOLE + HOLE[:1])}
 
 
 class Shapes(unittest.TestCase):
@@ -133,6 +137,24 @@ class Shapes(unittest.TestCase):
         self.passes(mesh)
         self.finds(["outside"], mesh, self.config("pond", contour("pond.xy")))
         self.finds(["uncovered_places"], mesh, self.config("island", contour("island.xy")))
+
+    def test_polygons_of_geojson_and_segments_of_poly(self):
+        """A square with a hole passes; without the hole, or with another one, it does not."""
+        square, hole = HOLED["it.poly"], "5 0.4 0.4\n6 0.6 0.4\n7 0.6 0.6\n8 0.4 0.6\n"
+        files = HOLED | {"other.poly": square.replace(hole, hole.replace("0.6", "0.55")),
+                         "other.geojson": geojson(SQUARE + SQUARE[:1])}
+        for ending in ("poly", "geojson"):
+            with self.subTest(ending=ending):
+                config = self.config(f"it_{ending}", contour(f"it.{ending}"), files=files)
+                path = self.mesh(config)
+                text = self.passes(path, config)
+                for name in ("outside", "uncovered_curves", "uncovered_places", "facet_parts", "corners"):
+                    self.assertRegex(text, rf"(?m)^ok +{name} ")
+                self.finds(["uncovered_places"] + (["uncovered_curves"] if ending == "poly" else []), path,
+                           self.config("other", contour(f"other.{ending}")))
+        lines = self.config("lines", contour("lines.geojson"),
+                            files={"lines.geojson": geojson(SQUARE + SQUARE[:1], kind="LineString")})
+        self.assertRegex(self.passes(self.mesh(lines), lines), "reads only polygons of GeoJSON")
 
     def test_loops_that_were_dropped(self):
         """The report says that curves have no facets there."""

@@ -266,26 +266,28 @@ class Check(unittest.TestCase):
                     self.assertRegex(text, r"(?m)^ok +on_curve")
 
     def test_passes_the_mesh_of_a_map(self):
-        """trime_check does not read maps, and does not check what only they contain, such as the container."""
+        """trime_check reads polygons of maps. It does not read lines, and does not check what only these contain, such
+        as the container."""
         ring = [[3000, 1000], [9000, 1000], [9000, 5000], [3000, 5000], [3000, 1000]]
-        (self.work / "map.geojson").write_text(json.dumps(
-            {"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:25833"}},
-             "features": [{"type": "Feature", "properties": {"name": "Isle"},
-                           "geometry": {"type": "Polygon", "coordinates": [ring]}}]}))
-        config = self.work / "map.ini"
-        config.write_text("[shape]\ngeometry = difference(land, pond)\n[shape.land]\ntype = contour\n"
-                          "file = map.geojson\n"
-                          "attribute = name\n[shape.pond]\ntype = circle\ncenter = 6000 3000\nradius = 700\n"
-                          f"[meshing]\npoints = {POINTS}\n")
-        done = run(config, f"output.directory={self.work}")
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-        code, text = check(self.work / "map.h5")
-        self.assertEqual(code, 0, text)
-        self.assertRegex(text, r"(?m)^-- +container")
-        self.assertRegex(text, r"(?m)^ok +facet_parts")
-        code, text = check(self.work / "map.h5", ROOT / "configs" / "square.ini")
-        self.assertEqual(code, 5, text)
-        self.assertIn("facet_parts", self.wrong(text))
+        for kind, places, container in (("Polygon", [ring], "ok"), ("LineString", ring, "--")):
+            (self.work / "map.geojson").write_text(json.dumps(
+                {"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:25833"}},
+                 "features": [{"type": "Feature", "properties": {"name": "Isle"},
+                               "geometry": {"type": kind, "coordinates": places}}]}))
+            config = self.work / "map.ini"
+            config.write_text("[shape]\ngeometry = difference(land, pond)\n[shape.land]\ntype = contour\n"
+                              "file = map.geojson\n"
+                              "attribute = name\n[shape.pond]\ntype = circle\ncenter = 6000 3000\nradius = 700\n"
+                              f"[meshing]\npoints = {POINTS}\n[output]\noverwrite = true\n")
+            done = run(config, f"output.directory={self.work}")
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            code, text = check(self.work / "map.h5")
+            self.assertEqual(code, 0, text)
+            self.assertRegex(text, rf"(?m)^{container} +container")
+            self.assertRegex(text, r"(?m)^ok +facet_parts")
+            code, text = check(self.work / "map.h5", ROOT / "configs" / "square.ini")
+            self.assertEqual(code, 5, text)
+            self.assertIn("facet_parts", self.wrong(text))
 
     def test_finds_every_damage(self):
         self.assertGreaterEqual(len(DAMAGES), 20)

@@ -5,6 +5,7 @@
 Those programs read the same points, triangles, labels and names as the HDF5 file has. A run and `trime_mpi convert`
 give the same bytes on any number of ranks.
 """
+import json
 import os
 import shutil
 import subprocess
@@ -354,6 +355,82 @@ class Formats(unittest.TestCase):
                 self.assertEqual(kinds, {"open_sea": {"open"}, "bay": {20}, "island": {21}} if path.stem == "own"
                                  else {"spade": {20}, "hole": {21}})
 
+    def open_and_land(self, path):
+        """Names of the open and of the land boundaries of a fort.14."""
+        head, land = path.read_text().split(" = land boundaries")
+        return [{line.split(" = ")[1] for line in text.splitlines() if " = " in line and not line.endswith("boundaries")
+                 and not line.endswith("points on them")} for text in (head, land)]
+
+    def test_open_boundary(self):
+        """The names that the user gives decide; convert finds them in the mesh file."""
+        work = self.work / "open"
+        for names, wanted in (("bay", {"bay"}), (" island ,bay", {"bay", "island"}), ("none", set()),
+                              ("auto", {"open_sea"})):
+            with self.subTest(names=names):
+                done = run(self.work / "own.ini", f"output.directory={work}", "output.formats=fort14",
+                           "output.overwrite=true", f"output.open_boundary={names}", ranks=2)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertEqual(self.open_and_land(work / "own.14"), [wanted, {"open_sea", "bay", "island"} - wanted])
+                said = ", ".join(name for name in ("open_sea", "bay", "island") if name in wanted) or "none"
+                self.assertIn(f"open boundary: {said}; land boundary: ", done.stdout)
+                done = run("convert", work / "own.h5", work / "again.14", "--overwrite")
+                self.assertEqual(done.returncode, 0, done.stderr)
+                lines = [path.read_text().splitlines()[1:] for path in (work / "own.14", work / "again.14")]
+                self.assertEqual(*lines)
+        done = run(self.work / "own.ini", "output.open_boundary=bay, ilsand", "--validate", ranks=3)
+        self.assertEqual(done.returncode, USAGE, done.stderr)
+        self.assertRegex(done.stderr, r"'open_boundary = ilsand' in \[output\]: no part .* did you mean 'island'\?; "
+                                      "the names are open_sea, bay, island, sunk")
+
+    def test_words_of_a_map_that_open_a_boundary(self):
+        """Only whole words behind the dot do, unless the key names the text before the dot."""
+        lines = [([[5, 60], [5.4, 60]], "Open Sea"), ([[5.4, 60], [5.4, 60.2]], "Chelsea"),
+                 ([[5.4, 60.2], [5, 60.2], [5, 60]], "land")]
+        (self.work / "sea.geojson").write_text(json.dumps({"type": "FeatureCollection", "features": [
+            {"type": "Feature", "properties": {"kind": kind}, "geometry": {"type": "LineString", "coordinates": line}}
+            for line, kind in lines]}))
+        (self.work / "sea.ini").write_text(
+            "[shape]\ngeometry = sea\nprojection = auto\n[shape.sea]\ntype = contour\nfile = sea.geojson\n"
+            f"attribute = kind\n[meshing]\npoints = 300\n[output]\ndirectory = {self.work}\noverwrite = true\n")
+        all_names = {"sea.Open Sea", "sea.Chelsea", "sea.land"}
+        for more, wanted in (([], {"sea.Open Sea"}), (["output.open_boundary=land"], {"sea.land"}),
+                             (["output.open_boundary=sea"], all_names)):
+            done = run(self.work / "sea.ini", "output.formats=fort14 2dm", *more)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(self.open_and_land(self.work / "sea.14"), [wanted, all_names - wanted])
+        done = run(self.work / "sea.ini", "output.formats=fort14 2dm", "output.coordinates=degrees",
+                   "output.open_boundary=sea", "output.name=degrees", ranks=3)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        text = {ending: (self.work / f"degrees.{ending}").read_text().splitlines() for ending in ("14", "2dm")}
+        count = int(text["14"][1].split()[1])
+        places = [np.array([line.split()[1:3] for line in text["14"][2:2 + count]], dtype=float),
+                  np.array([line.split()[2:4] for line in text["2dm"] if line.startswith("ND ")], dtype=float)]
+        np.testing.assert_array_equal(*places)
+        for corner in ([5, 60], [5.4, 60], [5.4, 60.2], [5, 60.2]):
+            self.assertLess(np.abs(places[0] - corner).max(axis=1).min(), 1e-9)
+        for ending in ("14", "2dm"):
+            done = run("convert", self.work / "sea.h5", self.work / f"again.{ending}", "--degrees", ranks=2)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual((self.work / f"again.{ending}").read_text().splitlines()[1:], text[ending][1:])
+
+    def test_degrees_need_a_reference_system(self):
+        for arguments in ([self.work / "own.ini", "--validate", "output.coordinates=degrees"],
+                          ["convert", self.work / "own.h5", self.work / "none.14", "--degrees"]):
+            done = run(*arguments, ranks=3)
+            self.assertEqual(done.returncode, USAGE, done.stderr)
+            self.assertRegex(done.stderr, r"'coordinates = degrees' needs .* 'projection = auto' in \[shape\]")
+
+    def test_a_region_and_a_part_of_one_name(self):
+        """meshio keeps one group of a name."""
+        (self.work / "disc.ini").write_text("[shape]\ngeometry = disc\n[shape.disc]\ntype = circle\n"
+                                            "center = 0.5 0.5\nradius = 0.4\n[meshing]\npoints = 200\n")
+        done = run(self.work / "disc.ini", f"output.directory={self.work}", "output.formats=gmsh gmsh2")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for ending in ("msh", "msh2"):
+            mesh = meshio.read(self.work / f"disc.{ending}", file_format="gmsh")
+            found = {name: tuple(value) for name, value in mesh.field_data.items()}
+            self.assertEqual(found, {"disc": (1, 1), "region disc": (1, 2)})
+
     def test_convert_makes_the_same_bytes_on_any_ranks(self):
         """The runs had 2 ranks."""
         for stem, ranks, endings in (("own", 3, ENDINGS), ("spade", 1, ["node", "14", "geojson"])):
@@ -393,6 +470,8 @@ class Formats(unittest.TestCase):
                  (["convert", damaged, self.work / "a.msh"], FILE, r"damaged\.h5 was changed after it was written"),
                  (["convert", own, self.work / "no" / "a.msh"], FILE, r"cannot create .*no/a\.msh"),
                  (["info"], USAGE, r"'trime_mpi info' needs one file, found 0 files"),
+                 (["info", self.work / "own.xdmf"], FILE, r"it only describes a mesh file .* open .*own\.h5"),
+                 ([self.work / "own.ini", "--degrees"], USAGE, r"'--degrees' belongs to 'trime_mpi convert'"),
                  (["info", plain], FILE, r"is not a mesh file"),
                  ([self.work / "own.ini", "--overwrite"], USAGE, r"'--overwrite' belongs to 'trime_mpi convert'"),
                  ([self.work / "own.ini", f"output.directory={self.work}", "output.formats=gmsh", "output.name=own",

@@ -11,7 +11,7 @@ import unittest
 
 import h5py
 
-from trime_run import MPIEXEC, PROGRAM, ROOT, Workspace, environment, run
+from trime_run import MPIEXEC, PROGRAM, ROOT, Workspace, run, users_environment
 
 HOSTS = ROOT / "scripts" / "hosts_here.sh"
 CONFIG = ROOT / "configs" / "spade.ini"  # has a hole, tips and a clean-up
@@ -20,8 +20,8 @@ NO_NAMESPACES = 77
 
 
 def on_hosts(hosts, *command, timeout=120):
-    return subprocess.run([str(part) for part in (HOSTS, hosts, *command)], env=environment(1), capture_output=True,
-                          text=True, timeout=timeout, check=False)
+    return subprocess.run([str(part) for part in (HOSTS, hosts, *command)], env=users_environment(1),
+                          capture_output=True, text=True, timeout=timeout, check=False)
 
 
 class Hosts(unittest.TestCase):

@@ -12,7 +12,7 @@ import sys
 import unittest
 
 from mesh_in_a_job import DISC
-from trime_run import MPIEXEC, PROGRAM, ROOT, Workspace, environment
+from trime_run import MPIEXEC, PROGRAM, ROOT, Workspace, users_environment
 
 sys.path.insert(0, str(ROOT / "scripts" / "python"))
 import trime_mpi  # noqa: E402  (found by the line above)
@@ -33,8 +33,8 @@ def in_a_job(count, ranks, *options, launcher=MPIEXEC, places=()):
     with Workspace() as work:
         done = subprocess.run(
             [*outer(count, *places, launcher=launcher), HERE / "mesh_in_a_job.py", work, str(ranks), *options],
-            env=environment(1) | {"TRIME_PROGRAM": PROGRAM, "TRIME_MPIEXEC": MPIEXEC}, capture_output=True, text=True,
-            timeout=120, check=False)
+            env=users_environment(1) | {"TRIME_PROGRAM": PROGRAM, "TRIME_MPIEXEC": MPIEXEC}, capture_output=True,
+            text=True, timeout=120, check=False)
         if done.returncode != 0:
             raise AssertionError(f"exit code {done.returncode}\n{done.stdout}{done.stderr}")
         return [json.loads((work / f"{rank}.json").read_text(encoding="utf-8")) for rank in range(count)]
@@ -50,7 +50,7 @@ class Jobs(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.open_mpi = is_open_mpi()
-        os.environ.update(environment(1), TRIME_PROGRAM=PROGRAM, TRIME_MPIEXEC=MPIEXEC)
+        os.environ.update(users_environment(1), TRIME_PROGRAM=PROGRAM, TRIME_MPIEXEC=MPIEXEC)
         cls.hash = trime_mpi.mesh(DISC, threads=1).hash
 
     def check_meshes(self, found, count, ranks):
@@ -116,11 +116,11 @@ class Variables(unittest.TestCase):
                "OMP_WAIT_POLICY": "active"}
         program = "import json, os; print(json.dumps(dict(os.environ)))"
         done = subprocess.run([*outer(1, "--mca", "coll", "^hcoll", "--bind-to", "core"), "-c", program],
-                              env=environment(1) | own, capture_output=True, text=True, timeout=60, check=True)
+                              env=users_environment(1) | own, capture_output=True, text=True, timeout=60, check=True)
         inside = json.loads(done.stdout)
         self.assertIn("OMPI_MCA_ess_base_jobid", inside)
         left = {name: value for name, value in run_environment(inside).items() if name not in HARMLESS}
-        expected = run_environment(environment(1) | own) | {"OMPI_MCA_coll": "^hcoll"}
+        expected = run_environment(users_environment(1) | own) | {"OMPI_MCA_coll": "^hcoll"}
         of_mpi = ("OMPI_", "OMP_", "PMIX_", "PMI_", "PRTE_", "HYDRA_")
         self.assertEqual({name: value for name, value in left.items() if name.startswith(of_mpi)},
                          {name: value for name, value in expected.items() if name.startswith(of_mpi)})

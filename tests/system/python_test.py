@@ -17,7 +17,7 @@ import warnings
 import h5py
 import numpy as np
 
-from trime_run import MPIEXEC, PROGRAM, ROOT, Workspace, environment
+from trime_run import MPIEXEC, PROGRAM, ROOT, Workspace, users_environment
 
 PACKAGE = ROOT / "scripts" / "python"
 sys.path.insert(0, str(PACKAGE))
@@ -31,7 +31,7 @@ DISC = {"shape": {"geometry": "difference(disc, hole)",
 
 
 def setUpModule():
-    os.environ.update(environment(1), TRIME_PROGRAM=PROGRAM, TRIME_MPIEXEC=MPIEXEC)
+    os.environ.update(users_environment(1), TRIME_PROGRAM=PROGRAM, TRIME_MPIEXEC=MPIEXEC)
 
 
 def changed(**sections):

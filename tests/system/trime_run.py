@@ -11,7 +11,17 @@ PROGRAM = os.environ.get("TRIME_PROGRAM", str(ROOT / "build" / "ci" / "trime_mpi
 MPIEXEC = os.environ.get("TRIME_MPIEXEC", "mpirun")
 
 
+# Open MPI starts faster by 0.2 s if it looks for no network. Singletons keep their daemons: without them
+# (ess_singleton_isolated), all processes of a machine share one directory, and fail where they make and remove it.
+QUICK_START = {"OMPI_MCA_pml": "ob1", "OMPI_MCA_btl": "self,vader", "OMPI_MCA_osc": "^ucx"}
+
+
 def environment(threads):
+    """Returns the environment in which tests start the program: that of `users_environment`, with a quick start."""
+    return users_environment(threads) | QUICK_START
+
+
+def users_environment(threads):
     """Returns the environment for more ranks and threads than cores, also as root in a container."""
     return dict(os.environ, OMP_NUM_THREADS=str(threads), OMP_WAIT_POLICY="passive", OMPI_ALLOW_RUN_AS_ROOT="1",
                 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_rmaps_base_oversubscribe="1",

@@ -53,6 +53,10 @@ struct Names {
   geometry::Vec2 period{0, 0};
   /// Reference system of the coordinates, as PROJ names it; empty: unknown.
   std::string crs{};
+  /// Names of the parts that are open in fort14 (see configs/formats.md). No list: those whose name says it.
+  std::optional<std::vector<std::string>> open_boundary{};
+  /// Whether fort14 and 2dm have longitude and latitude in place of the coordinates of the mesh; needs `crs`.
+  bool in_degrees = false;
 };
 
 /// Returns the paths of all files of a format if the first file is `path`. For example, Triangle has three files.

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Converts the points of a mesh from the plane to longitude and latitude, for the formats that want these.
+#pragma once
+
+#include "formats/exchange_mesh.hpp"
+
+#include <string>
+#include <vector>
+
+namespace trime::formats {
+
+/// Replaces places in the plane by longitude and latitude in degrees. Not collective.
+/// @param crs reference system of the plane, as PROJ names it @param format its word, for the message
+/// @throws FileError if a place has none
+void to_degrees(std::vector<geometry::Vec2>& places, const std::string& crs, const char* format);
+
+/// Returns rows of the points in the coordinates that Names::in_degrees asks for: "ID x y 0" behind a `start`.
+/// @throws ConfigError if degrees are wanted and the reference system is unknown; FileError as to_degrees(); both on
+/// all ranks @note Collective.
+io::TextRows numbered_points(const ExchangeMesh& mesh, const std::string& start, const char* format);
+
+/// Refuses degrees where the reference system of the mesh is unknown. @throws ConfigError
+void check_degrees(const Names& names);
+
+} // namespace trime::formats
