@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/config_sizing.hpp"
 
+#include "core/distance_formula.hpp"
+#include "core/quoted.hpp"
 #include "trime/core/error.hpp"
-#include "trime/core/formula.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <string_view>
 
 namespace trime::app {
 namespace {
@@ -12,6 +17,9 @@ constexpr double automatic_gradation = 0.1;
 
 // [1] Largest growth of a formula per length if none is given: triangles follow it with a largest alpha below 1.6.
 constexpr double formula_gradation = 0.3;
+
+// [1] Growth of a uniform size per length from the lengths in size_at, if none is given.
+constexpr double boundary_gradation = 0.15;
 
 /// The formula must parse; it is made again when the number of threads is known.
 void read_expression(const Settings& settings, SizingOptions& sizing, Diagnostics& problems) {
@@ -25,7 +33,10 @@ void read_expression(const Settings& settings, SizingOptions& sizing, Diagnostic
   const int line = settings.line("sizing", "expression");
   sizing.expression_place = problems.place(line) + ": " + what;
   try {
-    const Formula formula(sizing.expression, what);
+    // The names of the boundary are known only when the shape has been made.
+    const DistanceFormula formula(sizing.expression, what, [](const std::string&) -> PlaceFunction {
+      return [](double, double) { return 1.0; };
+    });
   } catch (const ConfigError& error) {
     problems.add(line, error.what());
   }
@@ -87,6 +98,85 @@ void check_automatic_scale(const Settings& settings, const RunOptions& options, 
                  "features of the boundary are not resolved, for example 'min_size = 200'");
 }
 
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  return first == std::string_view::npos ? std::string_view()
+                                         : text.substr(first, text.find_last_not_of(" \t") + 1 - first);
+}
+
+/// Splits a list at its commas, except at those between double quotes.
+std::vector<std::string_view> entries_of(std::string_view list) {
+  std::vector<std::string_view> entries;
+  bool is_quoted = false;
+  std::size_t begin = 0;
+  for (std::size_t k = 0; k <= list.size(); ++k) {
+    is_quoted ^= k < list.size() && list[k] == '"';
+    if (k < list.size() && (list[k] != ',' || is_quoted))
+      continue;
+    entries.push_back(trimmed(list.substr(begin, k - begin)));
+    begin = k + 1;
+  }
+  return entries;
+}
+
+/// Reads "NAME LENGTH"; the name may be in double quotes.
+/// @throws ConfigError if the entry is something else
+sizing::NamedSize named_size(std::string_view entry) {
+  const std::size_t blank = entry.find_last_of(" \t");
+  std::string_view name = blank == std::string_view::npos ? std::string_view() : trimmed(entry.substr(0, blank));
+  const std::string_view number = blank == std::string_view::npos ? entry : entry.substr(blank + 1);
+  if (name.size() > 2 && name.front() == '"' && name.back() == '"')
+    name = name.substr(1, name.size() - 2);
+  double length = 0;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), length);
+  if (name.empty() || error != std::errc() || end != number.data() + number.size())
+    throw ConfigError(fmt::format("expected NAME LENGTH, for example 'coast 200', found {}", quoted(entry)));
+  if (!(length > 0) || !std::isfinite(length))
+    throw ConfigError(fmt::format("expected a positive length for {}, found {}", quoted(name), number));
+  return {std::string(name), length};
+}
+
+/// The bounds of the size must leave room for a length on the boundary.
+void check_within_bounds(const sizing::NamedSize& named, const meshing::MeshOptions& mesh) {
+  if (mesh.min_size && named.size < *mesh.min_size)
+    throw ConfigError(fmt::format("the length {:.6g} of {} is below 'min_size = {:.6g}'", named.size,
+                                  quoted(named.name), *mesh.min_size));
+  if (mesh.max_size && named.size > *mesh.max_size)
+    throw ConfigError(fmt::format("the length {:.6g} of {} is above 'max_size = {:.6g}'", named.size,
+                                  quoted(named.name), *mesh.max_size));
+}
+
+/// The lengths are absolute, and the size grows from them by a gradation.
+void check_size_at(const Settings& settings, RunOptions& options) {
+  std::optional<double>& growth = options.mesh.gradation;
+  if (!options.mesh.absolute_sizes)
+    throw ConfigError("the lengths need 'scale = absolute'");
+  if (!growth && options.sizing.type == "uniform" && settings.text("sizing", "gradation") == "auto")
+    growth = boundary_gradation;
+  if (!growth)
+    throw ConfigError("the size grows from the boundary by 'gradation', which must be a number above 0, for example "
+                      "'gradation = 0.15'");
+}
+
+/// Reads the lengths on parts of the boundary. The names are compared with those of the shape when it has been made.
+void read_size_at(const Settings& settings, RunOptions& options, Diagnostics& problems) {
+  const std::string list = settings.text("sizing", "size_at");
+  if (list == "none")
+    return;
+  const int line = settings.line("sizing", "size_at");
+  const std::string what = "'size_at' in [sizing]";
+  options.sizing.size_at_place = problems.place(line) + ": " + what;
+  try {
+    check_size_at(settings, options);
+    for (const std::string_view entry : entries_of(list)) {
+      options.sizing.size_at.push_back(named_size(entry));
+      check_within_bounds(options.sizing.size_at.back(), options.mesh);
+    }
+  } catch (const ConfigError& error) {
+    problems.add(line, fmt::format("{}: {}", what, error.what()));
+  }
+}
+
 /// A key that only another type obeys. Its default is not worth a word: printed configs hold it.
 void warn_without_effect(const Settings& settings, const std::string& key, const std::string& type_of_key,
                          RunOptions& options) {
@@ -108,6 +198,7 @@ void read_sizing(const Settings& settings, RunOptions& options, Diagnostics& pro
   read_gradation(settings, options, problems);
   read_scale(settings, options, problems);
   check_automatic_scale(settings, options, problems);
+  read_size_at(settings, options, problems);
   warn_without_effect(settings, "expression", "expression", options);
 }
 

@@ -172,7 +172,15 @@ const Option table[] = {
      .key = "expression",
      .kind = OptionKind::text,
      .fallback = "none",
-     .meaning = "relative size as a formula of x and y, such as `1+3*x+3*y`; used if `type` is expression"},
+     .meaning = "relative size as a formula of x and y, such as `1+3*x+3*y`; used if `type` is expression; `dist()` is "
+                "the distance to the boundary, `dist(NAME)` that to the parts with this name"},
+    {.section = "sizing",
+     .key = "size_at",
+     .kind = OptionKind::text,
+     .fallback = "none",
+     .meaning =
+         "lengths of the edges on parts of the boundary, such as `coast 200, open sea 2000`; from there the size "
+         "grows by `gradation` per length; needs `scale = absolute`"},
     {.section = "sizing",
      .key = "min_size",
      .fallback = "none",

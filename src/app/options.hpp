@@ -4,6 +4,7 @@
 #pragma once
 
 #include "formats/mesh_series.hpp"
+#include "sizing/boundary_distance.hpp"
 #include "trime/core/log.hpp"
 #include "trime/geometry/lattice.hpp"
 #include "trime/geometry/vec2.hpp"
@@ -41,6 +42,8 @@ struct SizingOptions {
   double gradation = 0.1;       ///< K of the type automatic; 0 makes the size uniform
   std::string expression;       ///< formula of the size, already checked, if the type is expression
   std::string expression_place; ///< origin of the formula for messages: "config.ini:17: 'expression' in [sizing]"
+  std::vector<sizing::NamedSize> size_at; ///< lengths on parts of the boundary
+  std::string size_at_place;              ///< origin of `size_at` for messages
 };
 
 /// The file that the key `fixed_points` in [meshing] names.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/size_builder.hpp"
 
+#include "sizing/boundary_distance.hpp"
+#include "sizing/distance_size.hpp"
 #include "trime/core/error.hpp"
-#include "trime/core/formula.hpp"
 #include "trime/sizing/automatic_size.hpp"
 #include "trime/sizing/size_field.hpp"
 
@@ -30,8 +31,13 @@ BuiltSize automatic_size(const RunOptions& options, const geometry::Domain& doma
   return size;
 }
 
+sizing::Images images_of(const geometry::Domain& domain) {
+  const geometry::Periods& periods = domain.boundary().periods;
+  return {domain.frame().container(), periods.x, periods.y};
+}
+
 /// A formula of a periodic container must have its periods: compares both ends of some lines across it.
-void check_periods(const Formula& formula, const RunOptions& options, const geometry::Frame& frame) {
+void check_periods(const DistanceFormula& formula, const RunOptions& options, const geometry::Frame& frame) {
   constexpr int lines = 64;
   constexpr double same = 1e-6; // relative
   const geometry::Box& box = frame.container();
@@ -60,11 +66,32 @@ BuiltSize expression_size(const RunOptions& options, const geometry::Domain& dom
   const geometry::Box box =
       domain.frame().periods().any() ? domain.frame().container() : domain.boundary().bounding_box();
   BuiltSize size;
-  size.formula = std::make_unique<const Formula>(sizing.expression, sizing.expression_place);
-  size.field = std::make_unique<const sizing::ExpressionSize>(*size.formula, box);
+  size.formula = std::make_unique<const DistanceFormula>(
+      sizing.expression, sizing.expression_place, [&](const std::string& name) -> PlaceFunction {
+        const auto boundary =
+            std::make_shared<const sizing::BoundaryDistance>(domain.boundary(), name, images_of(domain));
+        return [boundary](double x, double y) { return boundary->distance({x, y}); };
+      });
+  size.field = std::make_unique<const sizing::DistanceSize>(*size.formula, box);
   size.description = "expression " + sizing.expression;
   check_periods(*size.formula, options, domain.frame());
   return size;
+}
+
+/// Lowers the size on the parts of the boundary that the key size_at names. The same on all ranks, errors too.
+void lower_at_boundary(const RunOptions& options, const geometry::Domain& domain, BuiltSize& size) {
+  const SizingOptions& sizing = options.sizing;
+  const double gradation = options.mesh.gradation.value();
+  size.base = std::move(size.field);
+  try {
+    size.field = std::make_unique<const sizing::BoundarySize>(*size.base, domain.boundary(), sizing.size_at, gradation,
+                                                              images_of(domain));
+  } catch (const ConfigError& error) {
+    throw ConfigError(fmt::format("{}: {}", sizing.size_at_place, error.what()));
+  }
+  for (const sizing::NamedSize& named : sizing.size_at)
+    size.description += fmt::format(", {:.6g} at {}", named.size, named.name);
+  size.description += fmt::format(" with gradation {:.6g}", gradation);
 }
 
 } // namespace
@@ -80,6 +107,8 @@ BuiltSize build_size(const RunOptions& options, const geometry::Domain& domain, 
         options.mesh.absolute_sizes ? options.mesh.max_size.value_or(1) : 1.0);
     size.description = "uniform";
   }
+  if (!options.sizing.size_at.empty())
+    lower_at_boundary(options, domain, size);
   if (options.mesh.absolute_sizes)
     size.description += ", absolute";
   if (options.mesh.min_size)

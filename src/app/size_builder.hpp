@@ -3,8 +3,8 @@
 #pragma once
 
 #include "app/options.hpp"
+#include "core/distance_formula.hpp"
 #include "trime/comm/communicator.hpp"
-#include "trime/core/formula.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/sizing/size_field.hpp"
 
@@ -16,7 +16,8 @@ namespace trime::app {
 
 /// A size field together with the objects that it refers to. Move-only.
 struct BuiltSize {
-  std::unique_ptr<const Formula> formula; ///< the formula, if the size is an expression
+  std::unique_ptr<const DistanceFormula> formula; ///< the formula, if the size is an expression
+  std::unique_ptr<const sizing::SizeField> base;  ///< the size that `field` lowers, if the key size_at is set
   std::unique_ptr<const sizing::SizeField> field;
   std::string description; ///< text for the report, such as "automatic, gradation 0.1, features of 0.004 and more"
 };

@@ -21,6 +21,8 @@ constexpr double floor_slack = 1.1; // the size changes along a facet
 constexpr double single_precision = 1e-6;
 // Gradation of the automatic size, if the config says `auto`.
 constexpr double default_gradation = 0.1;
+// The same of a uniform size that grows from parts of the boundary.
+constexpr double boundary_gradation = 0.15;
 
 struct Range {
   double low = 0, high = 0;
@@ -35,7 +37,11 @@ struct Sizing {
     const ConfigText config(file.text("/trime_mpi/config_resolved"), "");
     const std::string type = config.value("sizing", "type");
     is_expression = type == "expression";
-    gradation = type == "uniform" ? 0 : config.number("sizing", "gradation").value_or(default_gradation);
+    const std::string size_at = config.value("sizing", "size_at");
+    if (type == "uniform" && (size_at.empty() || size_at == "none"))
+      return;
+    gradation =
+        config.number("sizing", "gradation").value_or(type == "uniform" ? boundary_gradation : default_gradation);
   }
 };
 

@@ -2,6 +2,7 @@
 #include "trime/core/formula.hpp"
 
 #include "core/angle.hpp"
+#include "core/distance_formula.hpp"
 #include "core/elementary.hpp"
 #include "core/quoted.hpp"
 #include "core/thread_loop.hpp"
@@ -14,6 +15,7 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -127,13 +129,37 @@ std::string with_usual_power(std::string text) {
 
 constexpr std::size_t longest_text = 4096; // of a formula, in bytes
 
+// No text in UTF-8 has this byte. It begins the names of the variables that stand for distances.
+constexpr char distance_sign = '\xff';
+
+/// A use of `dist(NAME)`, the characters [begin, end) of a formula.
+struct DistanceUse {
+  std::size_t begin, end;
+  std::string name;
+
+  /// Returns the variable that stands for this use, as long as the use itself.
+  std::string variable(std::size_t number) const {
+    std::string word = distance_sign + std::to_string(number);
+    word.resize(end - begin, '_');
+    return word;
+  }
+};
+
 /// A parser with its variables, in separate cache lines.
 struct alignas(64) Slot {
   std::atomic_flag taken = ATOMIC_FLAG_INIT;
   double x = 0, y = 0;
+  std::vector<double> distances;
   mu::Parser parser;
 
-  explicit Slot(const std::string& text) {
+  Slot(std::string text, const std::vector<DistanceUse>& uses) : distances(uses.size(), 1.0) {
+    const char first_letter[] = {distance_sign, '\0'};
+    parser.DefineNameChars(
+        (std::string("0123456789_abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ") + first_letter).c_str());
+    for (std::size_t k = 0; k < uses.size(); ++k) {
+      text.replace(uses[k].begin, uses[k].end - uses[k].begin, uses[k].variable(k));
+      parser.DefineVar(uses[k].variable(k), &distances[k]);
+    }
     define_functions(parser);
     parser.DefineVar("x", &x);
     parser.DefineVar("y", &y);
@@ -203,11 +229,85 @@ void reject_assignment(const std::string& where, const std::string& text) {
   }
 }
 
-} // namespace
+bool is_blank(char c) {
+  return c == ' ' || c == '\t';
+}
 
-struct Formula::Store {
+bool is_letter(char c) {
+  return c == '_' || std::isalnum(static_cast<unsigned char>(c)) != 0;
+}
+
+std::size_t after_blanks(const std::string& text, std::size_t at) {
+  while (at < text.size() && is_blank(text[at]))
+    ++at;
+  return at;
+}
+
+/// Returns the use of `dist` whose parenthesis opens at `open`, or nothing if the parenthesis is not closed.
+std::optional<DistanceUse> distance_use(const std::string& text, std::size_t begin, std::size_t open) {
+  const std::size_t first = after_blanks(text, open + 1);
+  if (first < text.size() && text[first] == '"') {
+    const std::size_t quote = text.find('"', first + 1);
+    const std::size_t close = quote == std::string::npos ? text.size() : after_blanks(text, quote + 1);
+    if (close >= text.size() || text[close] != ')')
+      return std::nullopt;
+    return DistanceUse{begin, close + 1, text.substr(first + 1, quote - first - 1)};
+  }
+  const std::size_t close = text.find(')', first);
+  if (close == std::string::npos)
+    return std::nullopt;
+  std::size_t last = close;
+  while (last > first && is_blank(text[last - 1]))
+    --last;
+  return DistanceUse{begin, close + 1, text.substr(first, last - first)};
+}
+
+/// Returns all uses of `dist(...)`, in their order.
+std::vector<DistanceUse> distance_uses(const std::string& where, const std::string& text) {
+  const std::string word = "dist";
+  std::vector<DistanceUse> uses;
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at)) {
+    const std::size_t begin = at, open = after_blanks(text, begin + word.size());
+    at = begin + word.size();
+    if ((begin > 0 && is_letter(text[begin - 1])) || open >= text.size() || text[open] != '(')
+      continue;
+    const std::optional<DistanceUse> use = distance_use(text, begin, open);
+    if (!use)
+      reject(where, text, open + 1, "the parenthesis of dist(NAME) is not closed");
+    at = use->end;
+    uses.push_back(*use);
+  }
+  return uses;
+}
+
+/// Puts the text of the user in the place of each variable that stands for a distance.
+std::string with_distances(std::string message, const std::string& text, const std::vector<DistanceUse>& uses) {
+  for (std::size_t k = 0; k < uses.size(); ++k)
+    if (const std::size_t at = message.find(uses[k].variable(k)); at != std::string::npos)
+      message.replace(at, uses[k].end - uses[k].begin, text, uses[k].begin, uses[k].end - uses[k].begin);
+  return message;
+}
+
+/// The text must be something that the parser may see.
+void check_characters(const std::string& text, const std::string& where) {
+  if (text.find_first_not_of(" \t") == std::string::npos)
+    throw ConfigError(fmt::format("{}: expected an expression in x and y, found nothing", where));
+  if (text.size() > longest_text)
+    throw ConfigError(
+        fmt::format("{}: expected an expression of at most {} characters, found {}", where, longest_text, text.size()));
+  for (std::size_t k = 0; k < text.size(); ++k)
+    if (std::iscntrl(static_cast<unsigned char>(text[k])) != 0 && text[k] != '\t')
+      reject(where, text, k + 1, "control characters are not allowed in an expression");
+  reject_assignment(where, text);
+}
+
+/// The parsers of a formula, one for each thread that the process could use.
+struct Slots {
   std::string text, where;
+  std::vector<DistanceUse> uses;
   std::vector<std::unique_ptr<Slot>> slots;
+
+  void fill();
 
   Slot& take() {
     // A thread comes back to the parser that it had last, so that parsers rarely wander between caches.
@@ -223,42 +323,31 @@ struct Formula::Store {
   }
 };
 
-Formula::Formula(const std::string& text, const std::string& where) : store_(std::make_unique<Store>()) {
-  store_->text = text;
-  store_->where = where;
-  if (text.find_first_not_of(" \t") == std::string::npos)
-    throw ConfigError(fmt::format("{}: expected an expression in x and y, found nothing", where));
-  if (text.size() > longest_text)
-    throw ConfigError(
-        fmt::format("{}: expected an expression of at most {} characters, found {}", where, longest_text, text.size()));
-  for (std::size_t k = 0; k < text.size(); ++k)
-    if (std::iscntrl(static_cast<unsigned char>(text[k])) != 0 && text[k] != '\t')
-      reject(where, text, k + 1, "control characters are not allowed in an expression");
-  reject_assignment(where, text);
+void Slots::fill() {
   const std::size_t count =
       std::clamp<std::size_t>(std::max<std::size_t>(thread_count(), std::thread::hardware_concurrency()), 1, 256);
   for (std::size_t k = 0; k < count; ++k) {
-    store_->slots.push_back(std::make_unique<Slot>(text));
-    Slot& slot = *store_->slots.back();
+    slots.push_back(std::make_unique<Slot>(text, uses));
+    Slot& slot = *slots.back();
     try {
       slot.parser.Eval(); // translates the text once
       if (slot.parser.GetNumResults() != 1)
         reject(where, text, text.find(',') + 1, "expected one value, found several values separated by ','");
     } catch (const mu::ParserError& error) {
       const auto position = static_cast<std::ptrdiff_t>(error.GetPos());
-      reject(where, text, position < 0 ? 1 : static_cast<std::size_t>(position) + 1, complaint(slot.parser, error));
+      reject(where, text, position < 0 ? 1 : static_cast<std::size_t>(position) + 1,
+             with_distances(complaint(slot.parser, error), text, uses));
     }
   }
 }
 
-Formula::Formula(Formula&&) noexcept = default;
-Formula& Formula::operator=(Formula&&) noexcept = default;
-Formula::~Formula() = default;
-
-double Formula::evaluate(double x, double y) const {
-  Slot& slot = store_->take();
+/// @param set sets the distances of a slot
+template <class Set>
+double value_of(Slots& slots, double x, double y, const Set& set) {
+  Slot& slot = slots.take();
   slot.x = x;
   slot.y = y;
+  set(slot);
   double value = std::numeric_limits<double>::quiet_NaN();
   try {
     value = slot.parser.Eval();
@@ -268,12 +357,76 @@ double Formula::evaluate(double x, double y) const {
   return value;
 }
 
+} // namespace
+
+struct Formula::Store : Slots {};
+
+Formula::Formula(const std::string& text, const std::string& where) : store_(std::make_unique<Store>()) {
+  store_->text = text;
+  store_->where = where;
+  check_characters(text, where);
+  if (const std::vector<DistanceUse> uses = distance_uses(where, text); !uses.empty())
+    reject(where, text, uses.front().begin + 1,
+           "dist(NAME), the distance to the boundary, is known only in the formula of a size");
+  store_->fill();
+}
+
+Formula::Formula(Formula&&) noexcept = default;
+Formula& Formula::operator=(Formula&&) noexcept = default;
+Formula::~Formula() = default;
+
+double Formula::evaluate(double x, double y) const {
+  return value_of(*store_, x, y, [](Slot&) {});
+}
+
 const std::string& Formula::text() const {
   return store_->text;
 }
 
 const std::string& Formula::where() const {
   return store_->where;
+}
+
+struct DistanceFormula::Store : Slots {
+  std::vector<PlaceFunction> distances;
+};
+
+DistanceFormula::DistanceFormula(const std::string& text, const std::string& where, const DistanceLookup& lookup)
+    : store_(std::make_unique<Store>()) {
+  store_->text = text;
+  store_->where = where;
+  check_characters(text, where);
+  store_->uses = distance_uses(where, text);
+  for (const DistanceUse& use : store_->uses)
+    try {
+      store_->distances.push_back(lookup(use.name));
+    } catch (const ConfigError& error) {
+      reject(where, text, use.begin + 1, error.what());
+    }
+  store_->fill();
+}
+
+DistanceFormula::DistanceFormula(DistanceFormula&&) noexcept = default;
+DistanceFormula& DistanceFormula::operator=(DistanceFormula&&) noexcept = default;
+DistanceFormula::~DistanceFormula() = default;
+
+double DistanceFormula::evaluate(double x, double y) const {
+  return value_of(*store_, x, y, [&](Slot& slot) {
+    for (std::size_t k = 0; k < slot.distances.size(); ++k)
+      slot.distances[k] = store_->distances[k](x, y);
+  });
+}
+
+const std::string& DistanceFormula::text() const {
+  return store_->text;
+}
+
+const std::string& DistanceFormula::where() const {
+  return store_->where;
+}
+
+bool DistanceFormula::uses_distances() const {
+  return !store_->uses.empty();
 }
 
 } // namespace trime

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trime/sizing/size_field.hpp"
 
+#include "sizing/formula_values.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
@@ -15,22 +16,7 @@ void fail_for_size(geometry::Vec2 p, double size) {
 }
 
 ExpressionSize::ExpressionSize(const Formula& formula, const geometry::Box& box) : formula_(formula), box_(box) {
-  double largest = 0;
-  for (int j = 0; j < check_points; ++j)
-    for (int i = 0; i < check_points; ++i) {
-      const double x = box.min.x + box.width() * i / (check_points - 1);
-      const double y = box.min.y + box.height() * j / (check_points - 1);
-      const double value = formula.evaluate(x, y);
-      if (!std::isfinite(value) || value <= 0)
-        throw ConfigError(
-            fmt::format("{}: expected a positive size everywhere in the bounding box of the shape, found {:.6g} at "
-                        "{} for '{}'; if the size is wrong outside the shape only, write "
-                        "max(FORMULA, SMALLEST SIZE)",
-                        formula.where(), std::isnan(value) ? std::fabs(value) : value, Place(geometry::Vec2{x, y}, 6),
-                        formula.text()));
-      largest = std::fmax(largest, value);
-    }
-  smallest_ = smallest_share * largest;
+  smallest_ = smallest_share * largest_value(formula, box);
 }
 
 double ExpressionSize::size(geometry::Vec2 p) const {

@@ -142,5 +142,29 @@ class AbsoluteSizes(MeshedSizes):
         self.assertGreater(mesh.lengths.max(), 0.025)
 
 
+BAY = ("[shape]\ngeometry = water\n[shape.water]\ntype = contour\nfile = bay.geojson\nattribute = kind\n"
+       "[sizing]\nscale = absolute\nmax_size = 2000\ngradation = 0.15\n")
+LINE = ('{"type":"Feature","properties":{"kind":"%s"},"geometry":{"type":"LineString","coordinates":%s}}')
+COAST = [[0, 0], [0, -8000], [9000, -15000], [26000, -9000], [40000, -8000], [40000, 0]]
+SEA = [[40000, 0], [40000, 30000], [0, 30000], [0, 0]]
+
+
+class BoundarySizes(MeshedSizes):
+    def bay(self, *overrides, ranks=1):
+        with Workspace() as work:
+            features = ",".join((LINE % ("coast", COAST), LINE % ("open sea", SEA)))
+            (work / "bay.geojson").write_text('{"type":"FeatureCollection","features":[%s]}' % features, "ascii")
+            return self.mesh(work, *overrides, config=BAY, ranks=ranks)
+
+    def test_lengths_at_the_coast_grow_from_there(self):
+        mesh = self.bay("sizing.size_at=coast 200")
+        coast = (mesh.points[mesh.edges][:, :, 1] <= 0).all(axis=1) & (mesh.sizes[mesh.edges].max(axis=1) < 201)
+        self.assertAlmostEqual(numpy.median(mesh.lengths[coast]), 200, delta=10)
+        self.assertLess(mesh.growth().max(), 0.153)
+        self.assertEqual(mesh.hash, self.bay("sizing.size_at=coast 200", ranks=3).hash)
+        by_formula = self.bay("sizing.type=expression", "sizing.expression=min(2000,200+0.15*dist(coast))")
+        self.assertEqual(mesh.hash, by_formula.hash)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Formulas: values, errors that point at the place, and one formula shared by many threads.
+#include "core/distance_formula.hpp"
 #include "core/elementary.hpp"
 #include "trime/core/error.hpp"
 #include "trime/core/formula.hpp"
@@ -115,6 +116,27 @@ TEST(Formula, AnswersManyThreadsAtOnce) {
   for (std::thread& thread : threads)
     thread.join();
   EXPECT_EQ(wrong, std::vector<int>(8, 0));
+}
+
+/// Every name has a distance of as many lengths as it has letters.
+PlaceFunction letters(const std::string& name) {
+  if (name == "cost")
+    throw ConfigError("no part has this name");
+  return [size = static_cast<double>(name.size())](double x, double) { return x + size; };
+}
+
+TEST(Formula, UsesDistancesToNamedParts) {
+  const auto value_with = [](const std::string& text) {
+    return DistanceFormula(text, "test", letters).evaluate(100, 0);
+  };
+  EXPECT_EQ(value_with("dist()"), 100);
+  EXPECT_EQ(value_with("min(2000, 2*dist(open sea) + dist( \"a)b\" ))"), 2 * 108 + 103);
+}
+
+TEST(Formula, RefusesDistancesWhereTheyAreNotKnown) {
+  EXPECT_NE(message("1+dist(coast)").find("at position 3: dist(NAME)"), std::string::npos) << message("1+dist(coast)");
+  EXPECT_THROW(DistanceFormula("1+dist(cost)", "test", letters), ConfigError);
+  EXPECT_THROW(DistanceFormula("1+dist(coast", "test", letters), ConfigError);
 }
 
 } // namespace

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sizing/boundary_distance.hpp"
+
+#include "core/quoted.hpp"
+#include "trime/core/error.hpp"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+namespace trime::sizing {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// The part before the first dot of a name, and the words after it, which may be empty.
+struct SplitName {
+  std::string_view part, words;
+
+  explicit SplitName(std::string_view name)
+      : part(name.substr(0, name.find('.'))), words(part.size() < name.size() ? name.substr(part.size() + 1) : "") {}
+};
+
+bool has_name(std::string_view part, std::string_view name) {
+  const SplitName split(part);
+  return name.empty() || part == name || split.part == name || (!split.words.empty() && split.words == name);
+}
+
+std::vector<std::string> names_of(const std::vector<std::string>& parts) {
+  std::set<std::string> names;
+  for (const std::string& part : parts) {
+    const SplitName split(part);
+    names.emplace(split.part);
+    if (!split.words.empty()) {
+      names.insert(part);
+      names.emplace(split.words);
+    }
+  }
+  return {names.begin(), names.end()};
+}
+
+/// The pieces of the parts with this name, in the order of the boundary, as one open loop.
+geometry::Boundary pieces_named(const geometry::Boundary& boundary, std::string_view name) {
+  const std::vector<int> parts = parts_named(name, boundary.part_names);
+  geometry::Boundary found;
+  found.periods = boundary.periods;
+  std::vector<geometry::Piece>& pieces = found.loops.emplace_back().pieces;
+  for (const geometry::Loop& loop : boundary.loops)
+    for (const geometry::Piece& piece : loop.pieces)
+      if (name.empty() || std::binary_search(parts.begin(), parts.end(), piece.part))
+        pieces.push_back(piece);
+  if (pieces.empty())
+    throw ConfigError(name.empty() ? "the shape has no boundary"
+                                   : fmt::format("no edge of the boundary belongs to {}", quoted(name)));
+  return found;
+}
+
+} // namespace
+
+std::vector<int> parts_named(std::string_view name, const std::vector<std::string>& part_names) {
+  std::vector<int> found;
+  for (std::size_t k = 0; k < part_names.size(); ++k)
+    if (has_name(part_names[k], name))
+      found.push_back(static_cast<int>(k));
+  if (found.empty()) {
+    const std::vector<std::string> known = names_of(part_names);
+    throw ConfigError(fmt::format("no part of the boundary has the name {}{}; known names: {}", quoted(name),
+                                  suggestion(name, known), fmt::join(known, ", ")));
+  }
+  return found;
+}
+
+BoundaryDistance::BoundaryDistance(const geometry::Boundary& boundary, std::string_view name, const Images& images)
+    : images_(images), locator_(pieces_named(boundary, name), images_) {}
+
+double BoundaryDistance::distance(geometry::Vec2 p) const {
+  return distance_within(p, infinity);
+}
+
+double BoundaryDistance::distance_within(geometry::Vec2 p, double reach) const {
+  const geometry::Vec2 place = images_.wrap(p);
+  const auto nearest = locator_.nearest(place, reach);
+  return nearest ? geometry::length(nearest->point - place) : reach;
+}
+
+BoundarySize::BoundarySize(const SizeField& field, const geometry::Boundary& boundary,
+                           const std::vector<NamedSize>& sizes, double gradation, const Images& images)
+    : field_(field), gradation_(gradation) {
+  std::map<int, const NamedSize*> size_of_part;
+  for (const NamedSize& named : sizes) {
+    for (const int part : parts_named(named.name, boundary.part_names)) {
+      const NamedSize& first = *size_of_part.emplace(part, &named).first->second;
+      if (first.size != named.size)
+        throw ConfigError(fmt::format("the boundary {} has two sizes: {:.6g} as {} and {:.6g} as {}",
+                                      quoted(boundary.part_names[static_cast<std::size_t>(part)]), first.size,
+                                      quoted(first.name), named.size, quoted(named.name)));
+    }
+    sources_.push_back({named.size, BoundaryDistance(boundary, named.name, images)});
+  }
+}
+
+double BoundarySize::size(geometry::Vec2 p) const {
+  double size = field_.size(p);
+  if (!is_valid_size(size))
+    return size;
+  for (const Source& source : sources_)
+    if (source.size < size) {
+      const double reach = (size - source.size) / gradation_;
+      const double distance = source.distance.distance_within(p, reach);
+      if (distance < reach)
+        size = std::fmin(size, source.size + gradation_ * distance);
+    }
+  return size;
+}
+
+} // namespace trime::sizing

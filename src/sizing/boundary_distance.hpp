@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The distance to the parts of a boundary that have a given name, and sizes that grow with this distance.
+#pragma once
+
+#include "sizing/piece_locator.hpp"
+#include "trime/geometry/boundary.hpp"
+#include "trime/sizing/size_field.hpp"
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace trime::sizing {
+
+/// @brief Returns the parts with this name, as ascending indices into `part_names`. A part `water.open sea` has the
+/// names `water.open sea`, `water` and `open sea`. The empty name means all parts.
+/// @throws ConfigError that lists the known names if there is no such part
+std::vector<int> parts_named(std::string_view name, const std::vector<std::string>& part_names);
+
+/// Finds the distance to the parts of a boundary. Immutable; queries are thread-safe and give the same bits on every
+/// rank.
+class BoundaryDistance {
+public:
+  /// Builds the search tree in O(M) time for M pieces.
+  /// @param images those of the container of the boundary
+  /// @throws ConfigError if no part has the name, or if the parts with this name have no piece
+  BoundaryDistance(const geometry::Boundary& boundary, std::string_view name, const Images& images);
+
+  /// Returns the distance from p to the nearest point of these parts and of their periodic images. The distance is
+  /// correct within 0.05 %. Cost: O(log M), about 0.2 microseconds for 1e5 pieces.
+  double distance(geometry::Vec2 p) const;
+  /// Returns the smaller one of this distance and `reach`. A small reach makes the search faster.
+  double distance_within(geometry::Vec2 p, double reach) const;
+
+private:
+  Images images_;
+  PieceLocator locator_;
+};
+
+/// A length that the size has on the parts of the boundary with a name.
+struct NamedSize {
+  std::string name;
+  double size; ///< positive
+};
+
+/// @brief The size min(field(x), min over names k of size_k + gradation * distance to the parts with name k).
+class BoundarySize final : public SizeField {
+public:
+  /// @pre `field` outlives this object, gradation > 0
+  /// @throws ConfigError for an unknown name, or if a part has two names with different sizes
+  BoundarySize(const SizeField& field, const geometry::Boundary& boundary, const std::vector<NamedSize>& sizes,
+               double gradation, const Images& images);
+  /// Returns the size at p. An invalid size of the field is returned unchanged.
+  double size(geometry::Vec2 p) const override;
+
+private:
+  struct Source {
+    double size;
+    BoundaryDistance distance;
+  };
+  const SizeField& field_;
+  double gradation_;
+  std::vector<Source> sources_;
+};
+
+} // namespace trime::sizing

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Checks the values of a formula that gives a size.
+#pragma once
+
+#include "trime/core/error.hpp"
+#include "trime/sizing/size_field.hpp"
+
+#include <cmath>
+
+namespace trime::sizing {
+
+/// @brief Evaluates a Formula or DistanceFormula on the checking grid of ExpressionSize, and returns its largest value.
+/// @throws ConfigError that names the place and the value if a value is not positive and finite
+template <class AnyFormula>
+double largest_value(const AnyFormula& formula, const geometry::Box& box) {
+  constexpr int points = ExpressionSize::check_points;
+  double largest = 0;
+  for (int j = 0; j < points; ++j)
+    for (int i = 0; i < points; ++i) {
+      const double x = box.min.x + box.width() * i / (points - 1);
+      const double y = box.min.y + box.height() * j / (points - 1);
+      const double value = formula.evaluate(x, y);
+      if (!std::isfinite(value) || value <= 0)
+        throw ConfigError(
+            fmt::format("{}: expected a positive size everywhere in the bounding box of the shape, found {:.6g} at "
+                        "{} for '{}'; if the size is wrong outside the shape only, write "
+                        "max(FORMULA, SMALLEST SIZE)",
+                        formula.where(), std::isnan(value) ? std::fabs(value) : value, Place(geometry::Vec2{x, y}, 6),
+                        formula.text()));
+      largest = std::fmax(largest, value);
+    }
+  return largest;
+}
+
+} // namespace trime::sizing
