@@ -83,7 +83,7 @@ Source read_part(const ConfigText& config, const std::string& name) {
   } else if (part.type == "contour") {
     const std::string path = config.path(section, "file");
     part.has_names = !path.ends_with(".xy");
-    if (!config.value(section, "overlap").empty() || !config.value(section, "repair").empty()) {
+    if (config.value(section, "overlap") == "union" || config.is_true(section, "repair")) {
       part.reason = fmt::format("{}: trime_check cannot join or repair its rings", path);
     } else if (is_projected(config)) {
       part.reason = fmt::format("{}: trime_check cannot project its coordinates", path);
