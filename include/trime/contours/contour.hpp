@@ -50,7 +50,8 @@ Contour read_contour(const std::string& path, const std::string& hint = "", cons
 Contour parse_contour(std::string_view text, const std::string& source, const std::string& attribute = "");
 
 /// @brief Reads rings of `.xy` text, which has one `x y` per line. A blank line, or a line that starts with `>`, ends a
-/// ring; `#` and `;` start comments. Numbers may be separated by a comma.
+/// ring; `#` and `;` start comments. Numbers may be separated by a comma. If all lines have the form `10,15;20,55` or
+/// `x;y`, the semicolon separates the numbers, and commas are decimal commas.
 ///
 /// Lines end with LF, CR LF or CR. Exponents may be written with `d` (Fortran). A heading such as `x y` or `lon lat` in
 /// the first line is skipped with a warning. A ring may repeat its first vertex at its end or not; repeated consecutive

@@ -253,6 +253,20 @@ TEST(Contour, TakesNamesOfColumnsForWhatTheyAre) {
   EXPECT_NE(message_of<GeometryError>([] { parse_points("x y\n0 0\n", "p.xy"); }).find("p.xy:1"), std::string::npos);
 }
 
+TEST(Contour, SemicolonsBetweenNumbersAllowDecimalCommas) {
+  const std::vector<Vec2> triangle{{10.25, 20.5}, {95, 22}, {12.5, 70}};
+  for (const char* text : {"10,25;20,5\n95;22\n12,5;70\n", "x;y\r\n10,25 ; 20,50;\r\n95,0;22\r\n12,5;70,0 # end\r\n",
+                           "; table\n10.25;20.5\n95;22\n12.5;70"})
+    EXPECT_EQ(parse_xy(text, "map.csv").rings.at(0).points, triangle) << text;
+  EXPECT_EQ(parse_points("10,25;20,5\n\n95;22\n12,5;70\n", "p.csv").at(2).line, 4);
+  // In all other texts a semicolon starts a comment.
+  EXPECT_EQ(parse_xy("10.25,20.5 ; a\n95 22 ;1;2\n12.5 70\n", "map.xy").rings.at(0).points, triangle);
+  expect_error("10,25;20,5\n95,0 22\n12,5;70\n", {"map.xy:1", "line 2", "decimals with a point"});
+  expect_error("a line\n10,25;20,5\n95;22\n12,5;70\n", {"map.xy:2", "line 1", "'#' before comments"});
+  expect_error("10,25;1\n95,22;2\n12,70;3\n", {"map.xy:1", "two ways"});
+  expect_error("10,25;20,5;0\n95;22;0\n12,5;70;0\n", {"map.xy:1", "third column"});
+}
+
 TEST(Contour, OtherEncodingsAndNumbersAreToldWithARemedy) {
   expect_error(std::string("\xFF\xFE"
                            "0\0 \0",
