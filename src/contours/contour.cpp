@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trime/contours/contour.hpp"
 
+#include "contours/airfoil.hpp"
 #include "contours/contour_text.hpp"
 #include "contours/rules.hpp"
 #include "contours/segment_rings.hpp"
@@ -25,6 +26,14 @@ Contour parse_xy(std::string_view text, const std::string& source) {
   contour.source = source;
   const std::optional<std::string> plain = without_semicolons(text, source);
   RingBuilder builder(contour);
+  if (const auto foil = airfoil_of(plain ? *plain : text)) {
+    contour.warnings.push_back(fmt::format("{}: read as an airfoil in the format of {}, as one ring{}", source,
+                                           foil->format, foil->name.empty() ? "" : ": '" + foil->name + "'"));
+    for (const FilePoint& p : foil->points)
+      builder.add(p.position, p.line);
+    builder.finish("the coordinates of an airfoil");
+    return contour;
+  }
   VertexReader reader(contour.source);
   for_each_line(plain ? *plain : text, [&](std::string_view content, int number, bool parts_rings) {
     if (parts_rings)

@@ -244,10 +244,15 @@ std::string_view take_line(std::string_view& text) {
   return line;
 }
 
-std::optional<Vec2> VertexReader::read(std::string_view line, int number) {
+std::optional<Vec2> pair_of_numbers(std::string_view line) {
   Vec2 p;
-  std::string_view rest = line;
-  if (take_first(rest, p.x) && is_number(take_word(rest), p.y) && trimmed(rest).empty()) {
+  if (take_first(line, p.x) && is_number(take_word(line), p.y) && trimmed(line).empty())
+    return p;
+  return std::nullopt;
+}
+
+std::optional<Vec2> VertexReader::read(std::string_view line, int number) {
+  if (const auto p = pair_of_numbers(line)) {
     first_ = false;
     return p;
   }

@@ -47,6 +47,9 @@ void for_each_line(std::string_view text, const Visit& visit) {
   }
 }
 
+/// Returns the two numbers of a line, or nothing if the line holds anything else.
+std::optional<geometry::Vec2> pair_of_numbers(std::string_view line);
+
 /// Reads the vertices of one text, line by line.
 class VertexReader {
 public:

@@ -55,7 +55,8 @@ Contour parse_contour(std::string_view text, const std::string& source, const st
 ///
 /// Lines end with LF, CR LF or CR. Exponents may be written with `d` (Fortran). A heading such as `x y` or `lon lat` in
 /// the first line is skipped with a warning. A ring may repeat its first vertex at its end or not; repeated consecutive
-/// vertices are merged with a warning.
+/// vertices are merged with a warning. Coordinates of an airfoil in the formats of Selig or Lednicer, after a line with
+/// its name, are one ring.
 /// @throws GeometryError `source:line: ...` for a line that does not hold two finite numbers of at most 1e30, for a
 /// ring with fewer than three distinct vertices, for a text without vertices, and for UTF-16
 Contour parse_xy(std::string_view text, const std::string& source);
@@ -85,6 +86,7 @@ Contour parse_geojson(std::string_view text, const std::string& source, const st
 
 /// @brief Reads rings from the segments of a `.poly` file of Triangle, with their markers. Vertices are numbered from 0
 /// or 1. Numbers may be separated by commas.
+/// Open chains of segments are left out with a warning.
 ///
 /// The rings enclose the area that Triangle would mesh: everything enclosed by segments, except areas with a hole
 /// point. Two rings with the same segments are left out with a warning, and so are vertices without segments and
