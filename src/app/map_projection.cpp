@@ -80,24 +80,33 @@ const Contour* map_without_system(std::span<const Contour> contours) {
   return nullptr;
 }
 
-/// The longer side of all contours.
-double extent_of(std::span<const Contour> contours) {
+geometry::Box box_of(std::span<const Contour> contours) {
   geometry::Box box;
   for (const Contour& contour : contours)
     for (const ContourRing& ring : contour.rings)
       for (const Vec2 p : ring.points)
         box.include(p);
-  return std::fmax(box.width(), box.height());
+  return box;
 }
 
 /// Degrees where metres were meant would lose nearly all of the shape: edges of metres are longer than all of it.
-void tell_of_degrees(const RunOptions& options, const Contour& map, double extent, Log& log) {
+void tell_of_degrees(const RunOptions& options, const Contour& map, const geometry::Box& box, Log& log) {
+  constexpr double far = 4; // extents between the origin and the box: drawings begin near the origin
+  const double extent = std::fmax(box.width(), box.height());
+  const double away =
+      std::hypot(std::fmax(std::fmax(box.min.x, -box.max.x), 0), std::fmax(std::fmax(box.min.y, -box.max.y), 0));
   const double edge = options.mesh.edge_length.value_or(0), least = options.mesh.min_size.value_or(0);
   if (std::fmax(edge, least) > extent)
     log.warning("{} = {:g} is longer than the whole shape ({:.3g}). The coordinates of {} are within 360 and 90, so "
                 "they are most likely longitude and latitude in degrees, but the length seems to be in metres; set "
                 "'projection = auto' in [shape] to mesh them in metres",
                 edge >= least ? "edge_length" : "min_size", std::fmax(edge, least), extent, map.source);
+  else if (away > far * extent)
+    log.warning(
+        "the coordinates of {} are most likely longitude and latitude in degrees, which would be meshed as if "
+        "they were lengths: they are within 360 and 90, and the map is {:.3g} long and {:.3g} away from (0, 0); "
+        "set 'projection = auto' in [shape] to mesh them in metres",
+        map.source, extent, away);
   else
     log.summary("{} does not say in which reference system its coordinates are: if they are longitude and latitude, "
                 "'projection = auto' in [shape] meshes them in metres",
@@ -160,7 +169,7 @@ MapSystem as_it_is(const RunOptions& options, std::span<const Contour> contours,
   const bool moved =
       std::any_of(options.parts.begin(), options.parts.end(), [](const PartOptions& part) { return part.normalize; });
   if (const Contour* map = map_without_system(contours); map != nullptr && !moved)
-    tell_of_degrees(options, *map, extent_of(contours), log);
+    tell_of_degrees(options, *map, box_of(contours), log);
   if (crs.empty() || moved)
     return {};
   try {

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trime/contours/contour.hpp"
 
+#include "contours/airfoil.hpp"
 #include "contours/contour_text.hpp"
 #include "contours/rules.hpp"
 #include "contours/segment_rings.hpp"
 #include "core/read_file.hpp"
 #include "trime/core/error.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <type_traits>
 
 namespace trime::contours {
@@ -21,9 +24,18 @@ Contour parse_xy(std::string_view text, const std::string& source) {
   check_encoding(text, source);
   Contour contour;
   contour.source = source;
+  const std::optional<std::string> plain = without_semicolons(text, source);
   RingBuilder builder(contour);
+  if (const auto foil = airfoil_of(plain ? *plain : text)) {
+    contour.warnings.push_back(fmt::format("{}: read as an airfoil in the format of {}, as one ring{}", source,
+                                           foil->format, foil->name.empty() ? "" : ": '" + foil->name + "'"));
+    for (const FilePoint& p : foil->points)
+      builder.add(p.position, p.line);
+    builder.finish("the coordinates of an airfoil");
+    return contour;
+  }
   VertexReader reader(contour.source);
-  for_each_line(text, [&](std::string_view content, int number, bool parts_rings) {
+  for_each_line(plain ? *plain : text, [&](std::string_view content, int number, bool parts_rings) {
     if (parts_rings)
       builder.end_ring();
     else if (!content.empty())
@@ -37,9 +49,10 @@ Contour parse_xy(std::string_view text, const std::string& source) {
 
 std::vector<FilePoint> parse_points(std::string_view text, const std::string& source) {
   check_encoding(text, source);
+  const std::optional<std::string> plain = without_semicolons(text, source);
   std::vector<FilePoint> points;
   VertexReader reader(source);
-  for_each_line(text, [&](std::string_view content, int number, bool) {
+  for_each_line(plain ? *plain : text, [&](std::string_view content, int number, bool) {
     if (content.empty())
       return;
     const auto p = reader.read(content, number);
@@ -117,6 +130,18 @@ void check_has_attributes(const std::string& path, const std::string& attribute)
     throw ConfigError(fmt::format("{}: expected a .geojson or .shp, whose features may have the attribute '{}', found "
                                   "a file of another type",
                                   path, attribute));
+}
+
+/// Otherwise the brace would count as a mistake in a line 'x y'.
+void refuse_geojson(std::string_view text, const std::string& source) {
+  if (text.starts_with("\xEF\xBB\xBF")) // byte order mark of some editors
+    text.remove_prefix(3);
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  if (first != std::string_view::npos && text[first] == '{' && text.find("\"type\"", first) != std::string_view::npos)
+    throw GeometryError(
+        fmt::format("{}:{}: expected a contour of the type that the ending of the file name says, found "
+                    "GeoJSON; rename the file to NAME.geojson",
+                    source, 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(first), '\n')));
 }
 
 /// Does a `.poly` say that its vertices stand in another file?
@@ -222,6 +247,7 @@ Contour parse_contour(std::string_view text, const std::string& source, const st
   check_has_attributes(source, attribute);
   if (is_geojson(source))
     return parse_geojson(text, source, attribute);
+  refuse_geojson(text, source);
   if (ends_with_extension(source, ".poly"))
     return parse_poly(text, source);
   if (ends_with_extension(source, ".msh"))

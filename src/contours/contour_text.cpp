@@ -8,6 +8,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <fmt/ranges.h>
 
 namespace trime::contours {
 
@@ -121,7 +122,95 @@ std::string hint_for(std::string_view line, bool first) {
   return numbers == 3 && trimmed(line).empty() ? "; points in the plane have two numbers: remove the third column" : "";
 }
 
+/// A line between whose numbers semicolons stand.
+struct SemicolonRow {
+  std::vector<std::string> numbers; // with decimal points; empty if the line is something else
+  bool comma_first = false, comma_second = false;
+};
+
+SemicolonRow semicolon_row(std::string_view line) {
+  SemicolonRow row;
+  if (line.find(';') == std::string_view::npos)
+    return row;
+  if (line.ends_with(';'))
+    line.remove_suffix(1);
+  for (std::size_t at = 0; at <= line.size();) {
+    const std::size_t end = std::min(line.find(';', at), line.size());
+    std::string field(trimmed(line.substr(at, end - at)));
+    if (const std::size_t comma = field.find(','); comma != std::string::npos) {
+      (row.numbers.empty() ? row.comma_first : row.comma_second) = true;
+      field[comma] = '.';
+    }
+    double value = 0;
+    if (!is_number(field, value))
+      return {};
+    row.numbers.push_back(std::move(field));
+    at = end + 1;
+  }
+  return row;
+}
+
+/// Writes the lines of a text without semicolons, and finds which forms they have.
+class SemicolonText {
+public:
+  void add(std::string_view line, int number) {
+    line = trimmed(line.substr(0, line.find('#')));
+    const SemicolonRow row = semicolon_row(line);
+    if (row.numbers.size() > 1) {
+      plain_ += fmt::format("{}", fmt::join(row.numbers, " "));
+      comma_ = comma_ == 0 && row.comma_first ? number : comma_;
+      comma_second_ = comma_second_ || row.comma_second;
+      rows_ = true;
+    } else if (line.empty() || line.front() == '>' || line.front() == ';') {
+      plain_ += line.substr(0, line.find(';'));
+    } else if (const std::string names = columns_of(line); !rows_ && !names.empty()) {
+      plain_ += names;
+    } else {
+      other_ = other_ == 0 ? number : other_;
+    }
+    plain_ += '\n';
+  }
+
+  std::optional<std::string> take(const std::string& source) {
+    constexpr const char* remedy = "write decimals with a point, a blank between numbers, and '#' before comments";
+    if (comma_ > 0 && other_ > 0)
+      throw GeometryError(fmt::format("{}:{}: expected lines of one form, found decimal commas and a semicolon in this "
+                                      "line, as in '10,15;20,55', and another form in line {}; {}",
+                                      source, comma_, other_, remedy));
+    if (comma_ > 0 && !comma_second_)
+      throw GeometryError(fmt::format("{}:{}: expected two numbers 'x y', found numbers with ',' and ';' that can be "
+                                      "read in two ways: '10,15;20' is (10.15, 20), or (10, 15) with a comment; {}",
+                                      source, comma_, remedy));
+    return rows_ && other_ == 0 ? std::optional(std::move(plain_)) : std::nullopt;
+  }
+
+private:
+  /// The names of two columns with a blank between them, or nothing.
+  static std::string columns_of(std::string_view line) {
+    std::string names(line);
+    std::replace(names.begin(), names.end(), ';', ' ');
+    const auto words = column_names(names);
+    return are_columns(words, false) || are_columns(words, true) ? names : std::string();
+  }
+
+  std::string plain_;
+  bool rows_ = false;         // some line has numbers with semicolons between them
+  int other_ = 0, comma_ = 0; // the first line of another form, and the first one like '10,15;20'
+  bool comma_second_ = false;
+};
+
 } // namespace
+
+std::optional<std::string> without_semicolons(std::string_view text, const std::string& source) {
+  if (text.find(';') == std::string_view::npos)
+    return std::nullopt;
+  if (text.starts_with("\xEF\xBB\xBF")) // byte order mark of some editors
+    text.remove_prefix(3);
+  SemicolonText lines;
+  for (int number = 1; !text.empty(); ++number)
+    lines.add(take_line(text), number);
+  return lines.take(source);
+}
 
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && is_space(text.front()))
@@ -155,10 +244,15 @@ std::string_view take_line(std::string_view& text) {
   return line;
 }
 
-std::optional<Vec2> VertexReader::read(std::string_view line, int number) {
+std::optional<Vec2> pair_of_numbers(std::string_view line) {
   Vec2 p;
-  std::string_view rest = line;
-  if (take_first(rest, p.x) && is_number(take_word(rest), p.y) && trimmed(rest).empty()) {
+  if (take_first(line, p.x) && is_number(take_word(line), p.y) && trimmed(line).empty())
+    return p;
+  return std::nullopt;
+}
+
+std::optional<Vec2> VertexReader::read(std::string_view line, int number) {
+  if (const auto p = pair_of_numbers(line)) {
     first_ = false;
     return p;
   }

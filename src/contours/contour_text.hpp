@@ -25,6 +25,13 @@ void check_encoding(std::string_view text, const std::string& source);
 /// before a LF, all belong to the line end.
 std::string_view take_line(std::string_view& text);
 
+/// @brief Returns the text with each line `10,15;20,55` or `x;y` written as `10.15 20.55` or `x y`, if all lines have
+/// this form: pairs of numbers with a semicolon between them, as spreadsheets write them in many countries. Returns
+/// nothing for any other text, in which ';' starts a comment.
+/// @throws GeometryError `source:line: ...` for a text that can be read in both ways, or where only some lines have
+/// this form
+std::optional<std::string> without_semicolons(std::string_view text, const std::string& source);
+
 /// Calls visit(content, number, separates) for every line: its content without comment, its number from 1, and whether
 /// the line separates rings. Blank lines and lines that start with '>' (GMT) separate rings, and have no content.
 template <class Visit>
@@ -39,6 +46,9 @@ void for_each_line(std::string_view text, const Visit& visit) {
     visit(parts ? std::string_view{} : trimmed(line.substr(0, length)), number, parts);
   }
 }
+
+/// Returns the two numbers of a line, or nothing if the line holds anything else.
+std::optional<geometry::Vec2> pair_of_numbers(std::string_view line);
 
 /// Reads the vertices of one text, line by line.
 class VertexReader {

@@ -165,8 +165,13 @@ public:
       throw GeometryError(fmt::format("{}: expected segments that make rings, found none", source_));
     tell_unused(contour.warnings);
     RingBuilder builder(contour);
+    const std::vector<FileSegment> all = segments_;
+    remove_open_chains(vertices_, segments_, source_, contour.warnings);
     const auto rings = rings_of_segments(vertices_, segments_, source_, contour.warnings);
-    for (const std::size_t k : rings_around_material(rings, holes_, source_, contour.warnings)) {
+    const auto kept = rings_around_material(rings, holes_, source_, contour.warnings);
+    if (kept.empty()) // throws if a ring around a hole point is open: then the hole is all that the other rings enclose
+      rings_of_segments(vertices_, all, source_, contour.warnings);
+    for (const std::size_t k : kept) {
       for (const RingVertex& v : rings[k])
         builder.add(v.position, v.line, v.marker);
       builder.end_ring();

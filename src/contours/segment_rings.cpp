@@ -209,7 +209,60 @@ private:
   std::vector<char> used_;
 };
 
+/// The segments that are left if those with a free end are taken away again and again. @param segments between the
+/// first vertices at each place
+std::vector<FileSegment> without_free_ends(const std::vector<FileSegment>& segments, std::size_t vertices) {
+  std::vector<std::vector<std::size_t>> arms(vertices);
+  std::vector<int> degree(vertices, 0), free_ends;
+  for (std::size_t k = 0; k < segments.size(); ++k)
+    for (const int end : {segments[k].from, segments[k].to}) {
+      arms[at(end)].push_back(k);
+      ++degree[at(end)];
+    }
+  for (std::size_t v = 0; v < vertices; ++v)
+    if (degree[v] == 1)
+      free_ends.push_back(static_cast<int>(v));
+  std::vector<char> gone(segments.size(), 0);
+  for (std::size_t next = 0; next < free_ends.size(); ++next)
+    for (const std::size_t k : arms[at(free_ends[next])])
+      if (gone[k] == 0) {
+        gone[k] = 1;
+        for (const int end : {segments[k].from, segments[k].to})
+          if (--degree[at(end)] == 1)
+            free_ends.push_back(end);
+      }
+  std::vector<FileSegment> left;
+  for (std::size_t k = 0; k < segments.size(); ++k)
+    if (gone[k] == 0)
+      left.push_back(segments[k]);
+  return left;
+}
+
 } // namespace
+
+void remove_open_chains(const std::vector<FileVertex>& vertices, std::vector<FileSegment>& segments,
+                        const std::string& source, std::vector<std::string>& warnings) {
+  const std::vector<int> first = first_at_place(vertices);
+  std::vector<FileSegment> joined = segments;
+  for (FileSegment& s : joined) {
+    s.from = first[at(s.from)];
+    s.to = first[at(s.to)];
+  }
+  drop_useless(joined, source, warnings);
+  std::vector<FileSegment> left = without_free_ends(joined, vertices.size());
+  if (const std::size_t gone = joined.size() - left.size(); gone > 0 && !left.empty()) {
+    const auto place = std::mismatch(left.begin(), left.end(), joined.begin(), joined.end(),
+                                     [](const FileSegment& a, const FileSegment& b) { return a.line == b.line; })
+                           .second;
+    const Vec2 p = vertices[at(place->from)].position;
+    warnings.push_back(fmt::format("{}:{}: {} segment{} of open lines {} left out (the first one begins at ({}, {})); "
+                                   "only closed rings bound the mesh",
+                                   source, place->line, gone, gone == 1 ? "" : "s", gone == 1 ? "is" : "are", p.x,
+                                   p.y));
+    joined = std::move(left);
+  }
+  segments = std::move(joined);
+}
 
 std::vector<std::vector<RingVertex>> rings_of_segments(const std::vector<FileVertex>& vertices,
                                                        std::vector<FileSegment> segments, const std::string& source,

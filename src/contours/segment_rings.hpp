@@ -63,6 +63,12 @@ struct RingVertex {
   int marker;
 };
 
+/// @brief Removes open chains: segments that end where no other segment does, again and again. Vertices with the same
+/// coordinates count as one vertex. A warning names how many there are, and the place of the first one in the file.
+/// Removes nothing if nothing would be left. Cost: O(n log n).
+void remove_open_chains(const std::vector<FileVertex>& vertices, std::vector<FileSegment>& segments,
+                        const std::string& source, std::vector<std::string>& warnings);
+
 /// @brief Joins segments into rings. No ring visits a vertex twice; rings that meet at a vertex stay separate. Vertices
 /// with the same coordinates count as one vertex. Segments without length and repeated segments are left out with a
 /// warning. Cost: O(n log n).

@@ -428,6 +428,9 @@ class Maps(unittest.TestCase):
             (work / "a.prj").unlink()
             self.assertRegex(run(work / "case.ini", "--validate").stdout,
                              r"a\.shp does not say in which reference system .* 'projection = auto' in \[shape\]")
+            (work / "far.geojson").write_text(geojson(["25 65", "26 65", "26 65.5", "25 65.5"]))
+            self.assertRegex(run(work / "case.ini", "--validate", "shape.land.file=far.geojson").stdout,
+                             r"warning: the coordinates of \S+far\.geojson are most likely longitude and latitude")
             self.assertRegex(run(work / "case.ini", "--validate", "sizing.min_size=200").stdout,
                              r"warning: min_size = 200 is longer than the whole shape.*a\.shp.*'projection = auto'")
 

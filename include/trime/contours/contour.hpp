@@ -50,11 +50,13 @@ Contour read_contour(const std::string& path, const std::string& hint = "", cons
 Contour parse_contour(std::string_view text, const std::string& source, const std::string& attribute = "");
 
 /// @brief Reads rings of `.xy` text, which has one `x y` per line. A blank line, or a line that starts with `>`, ends a
-/// ring; `#` and `;` start comments. Numbers may be separated by a comma.
+/// ring; `#` and `;` start comments. Numbers may be separated by a comma. If all lines have the form `10,15;20,55` or
+/// `x;y`, the semicolon separates the numbers, and commas are decimal commas.
 ///
 /// Lines end with LF, CR LF or CR. Exponents may be written with `d` (Fortran). A heading such as `x y` or `lon lat` in
 /// the first line is skipped with a warning. A ring may repeat its first vertex at its end or not; repeated consecutive
-/// vertices are merged with a warning.
+/// vertices are merged with a warning. Coordinates of an airfoil in the formats of Selig or Lednicer, after a line with
+/// its name, are one ring.
 /// @throws GeometryError `source:line: ...` for a line that does not hold two finite numbers of at most 1e30, for a
 /// ring with fewer than three distinct vertices, for a text without vertices, and for UTF-16
 Contour parse_xy(std::string_view text, const std::string& source);
@@ -84,6 +86,7 @@ Contour parse_geojson(std::string_view text, const std::string& source, const st
 
 /// @brief Reads rings from the segments of a `.poly` file of Triangle, with their markers. Vertices are numbered from 0
 /// or 1. Numbers may be separated by commas.
+/// Open chains of segments are left out with a warning.
 ///
 /// The rings enclose the area that Triangle would mesh: everything enclosed by segments, except areas with a hole
 /// point. Two rings with the same segments are left out with a warning, and so are vertices without segments and

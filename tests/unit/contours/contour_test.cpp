@@ -253,6 +253,35 @@ TEST(Contour, TakesNamesOfColumnsForWhatTheyAre) {
   EXPECT_NE(message_of<GeometryError>([] { parse_points("x y\n0 0\n", "p.xy"); }).find("p.xy:1"), std::string::npos);
 }
 
+TEST(Contour, SemicolonsBetweenNumbersAllowDecimalCommas) {
+  const std::vector<Vec2> triangle{{10.25, 20.5}, {95, 22}, {12.5, 70}};
+  for (const char* text : {"10,25;20,5\n95;22\n12,5;70\n", "x;y\r\n10,25 ; 20,50;\r\n95,0;22\r\n12,5;70,0 # end\r\n",
+                           "; table\n10.25;20.5\n95;22\n12.5;70"})
+    EXPECT_EQ(parse_xy(text, "map.csv").rings.at(0).points, triangle) << text;
+  EXPECT_EQ(parse_points("10,25;20,5\n\n95;22\n12,5;70\n", "p.csv").at(2).line, 4);
+  // In all other texts a semicolon starts a comment.
+  EXPECT_EQ(parse_xy("10.25,20.5 ; a\n95 22 ;1;2\n12.5 70\n", "map.xy").rings.at(0).points, triangle);
+  expect_error("10,25;20,5\n95,0 22\n12,5;70\n", {"map.xy:1", "line 2", "decimals with a point"});
+  expect_error("a line\n10,25;20,5\n95;22\n12,5;70\n", {"map.xy:2", "line 1", "'#' before comments"});
+  expect_error("10,25;1\n95,22;2\n12,70;3\n", {"map.xy:1", "two ways"});
+  expect_error("10,25;20,5;0\n95;22;0\n12,5;70;0\n", {"map.xy:1", "third column"});
+}
+
+TEST(Contour, AirfoilsAreOneRing) {
+  const std::vector<Vec2> foil{{1, 0.01}, {0.5, 0.1}, {0, 0}, {0.5, -0.05}, {1, -0.01}};
+  for (const char* text : {"2032 FOIL\n1 .01\n.5 .1\n0 0\n.5 -.05\n1 -.01\n",
+                           "FOIL A\r\n  3.  3.\r\n\r\n0 0\r\n.5 .1\r\n1 .01\r\n\r\n0 0\r\n.5 -.05\r\n1 -.01\r\n",
+                           "3 3\n0 0\n.5 .1\n1 .01\n0 0\n.5 -.05\n1 -.01\n"}) {
+    const Contour contour = parse_xy(text, "foil.dat");
+    ASSERT_EQ(contour.rings.size(), 1u) << text;
+    EXPECT_EQ(contour.rings[0].points, foil) << text;
+    ASSERT_EQ(contour.warnings.size(), 1u);
+    EXPECT_NE(contour.warnings[0].find("foil.dat: read as an airfoil"), std::string::npos);
+  }
+  expect_error("a square\n0 0\n1 0\n1 1\n.5 1\n0 1\n", {"map.xy:1", "put '#' before it"});
+  EXPECT_EQ(parse_xy("3 3\n0 0\n.5 .1\n1 .01\n.5 -.05\n1 -.01\n", "map.xy").warnings.size(), 0u);
+}
+
 TEST(Contour, OtherEncodingsAndNumbersAreToldWithARemedy) {
   expect_error(std::string("\xFF\xFE"
                            "0\0 \0",

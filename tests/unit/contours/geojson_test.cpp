@@ -85,7 +85,11 @@ TEST(GeoJson, TheEndingOfTheFileDecides) {
   EXPECT_EQ(parse_contour(feature_collection, "dir/A.GeoJSON").rings.size(), 4u);
   EXPECT_EQ(parse_contour(feature_collection, "a.json").rings.size(), 4u);
   EXPECT_EQ(parse_contour("0 0\n1 0\n0 1\n", "a.xy").rings.size(), 1u);
-  EXPECT_NE(message_of<GeometryError>([] { parse_contour(feature_collection, "a.xy"); }), "");
+  for (const char* name : {"a.xy", "a.txt", "a.poly", "a.msh"})
+    EXPECT_NE(message_of<GeometryError>([&] { parse_contour("\n " + std::string(feature_collection), name); })
+                  .find(std::string(name) + ":2: expected a contour of the type that the ending of the file name says, "
+                                            "found GeoJSON; rename the file to NAME.geojson"),
+              std::string::npos);
 }
 
 TEST(GeoJson, MistakesAreLocated) {

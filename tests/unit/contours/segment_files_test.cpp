@@ -50,6 +50,23 @@ TEST(Poly, HolePointsSayWhatIsMeshed) {
             "");
 }
 
+TEST(Poly, OpenLinesAreLeftOutWithAWarning) {
+  // A square with a fault line inside and a line of two segments from a corner, in one vertex of which they meet twice.
+  const std::string vertices = "8 2 0 0\n1 0 0\n2 8 0\n3 8 8\n4 0 8\n5 3 3\n6 6 5\n7 2 4\n8 2 4\n";
+  const std::string square = "1 1 2\n2 2 3\n3 3 4\n4 4 1\n";
+  const Contour contour = parse_poly(vertices + "7 0\n" + square + "5 5 6\n6 8 7\n7 1 7\n0\n", "a.poly");
+  EXPECT_EQ(sides(contour), (std::vector<double>{8}));
+  ASSERT_EQ(contour.warnings.size(), 2u); // of the segment without length, too
+  EXPECT_EQ(contour.warnings[1], "a.poly:15: 2 segments of open lines are left out (the first one begins at (3, 3)); "
+                                 "only closed rings bound the mesh");
+  // Nothing but open lines is a mistake, and so is an open ring around a hole point, since nothing is left to mesh.
+  const auto error = [&](const std::string& rest) {
+    return message_of<GeometryError>([&] { parse_poly(vertices + rest, "a.poly"); });
+  };
+  EXPECT_NE(error("3 0\n1 1 2\n2 2 3\n3 3 4\n0\n").find("1 segment ends at vertex"), std::string::npos);
+  EXPECT_NE(error("5 0\n" + square + "5 5 6\n1\n1 4 4\n").find("1 segment ends at vertex 5"), std::string::npos);
+}
+
 TEST(Poly, KeepsMarkersAndLines) {
   const Contour contour = parse_poly(nested("2\n0 1.5 4\n1 4 4\n"), "a.poly");
   EXPECT_EQ(contour.rings[1].markers, (std::vector<int>{6, 6, 6, 6}));
