@@ -20,7 +20,7 @@ constexpr double on_meridian = 1e-9;
 /// edge obviously crosses the date line.
 constexpr double obvious = 45;
 
-/// Which side of the date line: 1 at 180, -1 at -180, 0 elsewhere.
+/// Returns the side of the date line on which a place lies: 1 at 180, -1 at -180, 0 elsewhere.
 int side_of(Vec2 p) {
   if (std::fabs(std::fabs(p.x) - date_line) > on_meridian)
     return 0;

@@ -499,9 +499,9 @@ class Maps(unittest.TestCase):
         pole = [feature("ice", polygon([(180, -84.7), (180, -90), (-180, -90), (-180, -84.7), (-75, -80), (0, -75),
                                         (90, -80)]))]
         cases = ((halves, "auto", "error", 1, 1, {"west", "east"}), (one, "auto", "error", 1, 1, {"isle"}),
-                 (halves, "auto", "union", 1, 1, {"west", "east"}), (one + far, "EPSG:3832", "error", 2, 1,
-                                                                     {"isle", "other"}),
-                 (pole, "EPSG:3031", "error", 1, 0, {"ice"}), (pole, "EPSG:3031", "union", 1, 0, {"ice"}))
+                 (halves, "auto", "union", 1, 1, {"west", "east"}), 
+                 (one + far, "EPSG:3832", "error", 2, 1, {"isle", "other"}),
+                 (pole, "EPSG:3031", "error", 1, 0, {"ice"}))
         with Workspace() as work:
             for features, plane, overlap, pieces, holes, names in cases:
                 (work / "map.geojson").write_text(json.dumps({"type": "FeatureCollection", "features": features}))
@@ -522,8 +522,8 @@ class Maps(unittest.TestCase):
                 plane_of = re.search(r"projection: (.*)", done.stdout)[1]
                 self.assertAlmostEqual(made / sum(area_in_plane(part[0], plane_of) for part in parts), 1, delta=1e-3)
                 found = json.loads((work / "case.geojson").read_text())["features"]
-                self.assertEqual({one["properties"]["name"] for one in found if one["properties"]["kind"] == "edge"},
-                                 {f"land.{name}" for name in names})
+                properties = [one["properties"] for one in found if one["properties"]["kind"] == "edge"]
+                self.assertEqual({one["name"] for one in properties}, {f"land.{name}" for name in names})
 
     def test_refused(self):
         with Workspace() as work:
