@@ -2,6 +2,7 @@
 #include "app/map_projection.hpp"
 
 #include "app/straight_edges.hpp"
+#include "contours/date_line.hpp"
 #include "core/quoted.hpp"
 #include "projection/projection.hpp"
 #include "trime/core/error.hpp"
@@ -163,6 +164,23 @@ void tell_of_divided(const DividedEdges& divided, Log& log) {
              divided.edges == 1 ? "this one was" : "these were", divided.deviation);
 }
 
+/// Joins polygons that their files cut at 180 degrees, and checks coordinates in degrees. @pre nothing is projected
+void prepare_degrees(const RunOptions& options, std::span<Contour> contours, Log& log) {
+  for (std::size_t k = 0; k < contours.size(); ++k) {
+    Contour& contour = contours[k];
+    if (!projection::is_geographic(system_of(contour)))
+      continue;
+    check_degrees(contour);
+    const bool united = options.parts[k].dissolve;
+    const double length =
+        contours::join_at_date_line(contour, united ? contours::DateLine::each_separate : contours::DateLine::join);
+    if (length > 0)
+      log.info("{}: the polygons that meet at longitudes 180 and -180 are joined; they share {:.4g} degrees of this "
+               "meridian",
+               contour.source, length);
+  }
+}
+
 /// Without a projection.
 MapSystem as_it_is(const RunOptions& options, std::span<const Contour> contours, Log& log) {
   const std::string crs = common_system(contours);
@@ -204,9 +222,7 @@ MapSystem project_contours(const RunOptions& options, std::span<Contour> contour
     return as_it_is(options, contours, log);
   MapSystem map;
   try {
-    for (const Contour& contour : contours)
-      if (projection::is_geographic(system_of(contour)))
-        check_degrees(contour);
+    prepare_degrees(options, contours, log);
     map.crs = options.projection == "auto" ? local_plane_of(contours) : options.projection;
     if (projection::is_geographic(map.crs))
       throw ConfigError(

@@ -59,6 +59,19 @@ def corners_of(rings, plane, angle=30):
     return count
 
 
+def area_in_plane(ring, plane, pieces=500):
+    """Area of a closed ring whose edges are straight in degrees, in a plane as PROJ names it, by GDAL's projection."""
+    systems = osr.SpatialReference(), osr.SpatialReference()
+    systems[0].ImportFromEPSG(4326)
+    systems[1].SetFromUserInput(plane)
+    for system in systems:
+        system.SetAxisMappingStrategy(osr.OAMS_TRADITIONAL_GIS_ORDER)
+    steps = numpy.arange(0, len(ring) - 1, 1 / pieces)
+    places = numpy.array([numpy.interp(steps, range(len(ring)), column) for column in numpy.array(ring).T]).T
+    x, y, _ = numpy.array(osr.CoordinateTransformation(*systems).TransformPoints(places)).T
+    return abs((x * numpy.roll(y, -1) - numpy.roll(x, -1) * y).sum()) / 2
+
+
 def fourfold(line):
     """`shape: area 0.64, ...` as (area, rest)."""
     return float(re.search(r"area (\S+),", line)[1]), line.split("boundary")[1]
@@ -472,6 +485,48 @@ class Maps(unittest.TestCase):
             with h5py.File(work / "case.h5") as file:
                 width = numpy.ptp(file["Mesh/mesh/geometry"][:, 0])
             self.assertAlmostEqual(width / (2 * 111320 * math.cos(math.radians(16.5))), 1, delta=0.01)
+
+    def test_polygons_that_are_cut_at_the_date_line_are_joined(self):
+        def polygon(*rings):
+            return {"type": "Polygon", "coordinates": [[[x, y] for x, y in ring + ring[:1]] for ring in rings]}
+
+        def feature(name, geometry):
+            return {"type": "Feature", "properties": {"name": name}, "geometry": geometry}
+        # An island with a lake, cut as RFC 7946 asks, with vertices at other latitudes on the two sides.
+        west = [(178, -18), (180, -18), (180, -17.5), (179.5, -17.2), (180, -17), (180, -16.4), (180, -16), (178, -16)]
+        east = [(-180, -18), (-178.5, -17), (-180, -16), (-180, -17), (-179.5, -17.2), (-180, -17.5)]
+        halves = [feature("west", polygon(west)), feature("east", polygon(east))]
+        one = [feature("isle", {"type": "MultiPolygon", "coordinates": [polygon(ring)["coordinates"]
+                                                                        for ring in (west, east)]})]
+        far = [feature("other", polygon([(177, -18), (177.5, -18), (177.5, -17), (177, -17)]))]
+        pole = [feature("ice", polygon([(180, -84.7), (180, -90), (-180, -90), (-180, -84.7), (-75, -80), (0, -75),
+                                        (90, -80)]))]
+        cases = ((halves, "auto", "error", 1, 1, {"west", "east"}), (one, "auto", "error", 1, 1, {"isle"}),
+                 (halves, "auto", "union", 1, 1, {"west", "east"}), 
+                 (one + far, "EPSG:3832", "error", 2, 1, {"isle", "other"}),
+                 (pole, "EPSG:3031", "error", 1, 0, {"ice"}))
+        with Workspace() as work:
+            for features, plane, overlap, pieces, holes, names in cases:
+                (work / "map.geojson").write_text(json.dumps({"type": "FeatureCollection", "features": features}))
+                (work / "case.ini").write_text(CONFIG.format("map.geojson\nattribute = name", 1000))
+                done = run(work / "case.ini", f"shape.projection={plane}", "output.formats=xdmf geojson",
+                           f"shape.land.overlap={overlap}", f"output.directory={work}", "output.overwrite=true",
+                           "--verbose", ranks=2)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertRegex(done.stdout, "the polygons that meet at longitudes 180 and -180 are joined; they share "
+                                 + ("5.3 degrees" if features is pole else "1.5 degrees"))
+                self.assertRegex(done.stdout, rf"boundary: {pieces} components?, {holes} holes?")
+                with h5py.File(work / "case.h5") as file:
+                    points, triangles = file["Mesh/mesh/geometry"][:], file["Mesh/mesh/topology"][:]
+                a, b, c = (points[triangles[:, k]] for k in range(3))
+                made = ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]).sum() / 2
+                parts = [part for one in features for part in ([one["geometry"]["coordinates"]]
+                         if one["geometry"]["type"] == "Polygon" else one["geometry"]["coordinates"])]
+                plane_of = re.search(r"projection: (.*)", done.stdout)[1]
+                self.assertAlmostEqual(made / sum(area_in_plane(part[0], plane_of) for part in parts), 1, delta=1e-3)
+                found = json.loads((work / "case.geojson").read_text())["features"]
+                properties = [one["properties"] for one in found if one["properties"]["kind"] == "edge"]
+                self.assertEqual({one["name"] for one in properties}, {f"land.{name}" for name in names})
 
     def test_refused(self):
         with Workspace() as work:
