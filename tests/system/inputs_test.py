@@ -502,7 +502,7 @@ class Maps(unittest.TestCase):
         pole = [feature("ice", polygon([(180, -84.7), (180, -90), (-180, -90), (-180, -84.7), (-75, -80), (0, -75),
                                         (90, -80)]))]
         cases = ((halves, "auto", "error", 1, 1, {"west", "east"}), (one, "auto", "error", 1, 1, {"isle"}),
-                 (halves, "auto", "union", 1, 1, {"west", "east"}), 
+                 (halves, "auto", "union", 1, 1, {"west", "east"}),
                  (one + far, "EPSG:3832", "error", 2, 1, {"isle", "other"}),
                  (pole, "EPSG:3031", "error", 1, 0, {"ice"}))
         with Workspace() as work:
@@ -513,8 +513,8 @@ class Maps(unittest.TestCase):
                            f"shape.land.overlap={overlap}", f"output.directory={work}", "output.overwrite=true",
                            "--verbose", ranks=2)
                 self.assertEqual(done.returncode, 0, done.stderr)
-                self.assertRegex(done.stdout, "the polygons that meet at longitudes 180 and -180 are joined; they share "
-                                 + ("5.3 degrees" if features is pole else "1.5 degrees"))
+                self.assertRegex(done.stdout, "the polygons that meet at longitudes 180 and -180 are joined; they "
+                                 + "share " + ("5.3 degrees" if features is pole else "1.5 degrees"))
                 self.assertRegex(done.stdout, rf"boundary: {pieces} components?, {holes} holes?")
                 with h5py.File(work / "case.h5") as file:
                     points, triangles = file["Mesh/mesh/geometry"][:], file["Mesh/mesh/topology"][:]
