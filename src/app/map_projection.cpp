@@ -103,11 +103,9 @@ void tell_of_degrees(const RunOptions& options, const Contour& map, const geomet
                 "'projection = auto' in [shape] to mesh them in metres",
                 edge >= least ? "edge_length" : "min_size", std::fmax(edge, least), extent, map.source);
   else if (away > far * extent)
-    log.warning(
-        "the coordinates of {} are most likely longitude and latitude in degrees, which would be meshed as if "
-        "they were lengths: they are within 360 and 90, and the map is {:.3g} long and {:.3g} away from (0, 0); "
-        "set 'projection = auto' in [shape] to mesh them in metres",
-        map.source, extent, away);
+    log.warning("the coordinates of {} are most likely longitude and latitude in degrees: the map is {:.3g} long and "
+                "{:.3g} away from (0, 0); set 'projection = auto' in [shape] to mesh them in metres",
+                map.source, extent, away);
   else
     log.summary("{} does not say in which reference system its coordinates are: if they are longitude and latitude, "
                 "'projection = auto' in [shape] meshes them in metres",
