@@ -165,9 +165,10 @@ const Option table[] = {
      .fallback = "auto",
      .choices = "auto none",
      .range = {0, 2},
-     .meaning = "largest growth of the size per length in the mesh, around narrow places, too (K in TriMe++); auto: "
-                "0.1 for the type automatic, 0.3 for a formula, 0.2 around narrow places; none: a formula is used as "
-                "it is; 0: the automatic size is uniform; triangles can hardly follow more than 0.5"},
+     .meaning =
+         "largest growth of the size per length in the mesh (K in TriMe++). auto: 0.1 for the type automatic, 0.3 "
+         "for a formula, 0.2 around narrow places. none: a formula is used as it is. 0: the automatic size is "
+         "uniform. Triangles can hardly follow a growth of more than 0.5"},
     {.section = "sizing",
      .key = "expression",
      .kind = OptionKind::text,

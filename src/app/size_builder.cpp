@@ -78,7 +78,8 @@ BuiltSize expression_size(const RunOptions& options, const geometry::Domain& dom
   return size;
 }
 
-/// Lowers the size on the parts of the boundary that the key size_at names. The same on all ranks, errors too.
+/// Lowers the size on the parts of the boundary that the key size_at names. All ranks get the same size, or the same
+/// error.
 void lower_at_boundary(const RunOptions& options, const geometry::Domain& domain, BuiltSize& size) {
   const SizingOptions& sizing = options.sizing;
   const double gradation = options.mesh.gradation.value();

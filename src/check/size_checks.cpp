@@ -21,7 +21,7 @@ constexpr double floor_slack = 1.1; // the size changes along a facet
 constexpr double single_precision = 1e-6;
 // Gradation of the automatic size, if the config says `auto`.
 constexpr double default_gradation = 0.1;
-// The same of a uniform size that grows from parts of the boundary.
+// Gradation of a uniform size that grows from parts of the boundary, if the config says `auto`.
 constexpr double boundary_gradation = 0.15;
 
 struct Range {

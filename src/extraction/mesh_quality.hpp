@@ -82,7 +82,7 @@ struct Extreme {
 /// Counts how fast the size grows along the edges.
 struct GrowthCounts {
   static constexpr std::size_t bins = 2048;
-  static constexpr double width = 1.0 / 1024; ///< of a bin; the last bin also counts all larger values
+  static constexpr double width = 1.0 / 1024; ///< width of a bin; the last bin also counts all larger values
   std::array<std::int64_t, bins> counts{};
 
   void add(double growth) { ++counts[static_cast<std::size_t>(std::min(growth / width, bins - 1.0))]; }

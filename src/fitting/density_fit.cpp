@@ -194,8 +194,7 @@ private:
     if (found.accepted)
       return std::move(*found.accepted);
     if (!found.fits)
-      return trials_.steep().limits.empty() ? too_few_points(context_, found.fewest)
-                                            : too_steep_size(context_, trials_.steep().limits);
+      return too_small_size(context_, trials_.steep().limits).value_or(too_few_points(context_, found.fewest));
     const bool jumps = bracket.has_lower() && found.best.points < enough_points * points_;
     if (jumps && !found.best.fit.stage.curves && context_.options.features.keep_all &&
         is_jump(found.best.points, points_))

@@ -24,6 +24,9 @@ constexpr double least_of_jump = 0.5;
 // Wedges and walls are widened up to about 2000 times their area.
 constexpr double largest_growth = 1e4;
 
+// [width of the shape] A size that is larger than this everywhere is not the reason for too many points.
+constexpr double small_share = 0.01;
+
 // [width of the shape] Triangles of this size are not widened.
 constexpr double fitting_size = 2;
 
@@ -79,16 +82,17 @@ TooFewPoints too_few_points(const LayoutContext& context, const Fewest& fewest) 
       geometry::length(fewest.shortest.b - fewest.shortest.a), Place(place, 6))};
 }
 
-TooFewPoints too_steep_size(const LayoutContext& context, std::span<const sizing::SizeLimit> places) {
-  const sizing::SizeLimit least = *std::ranges::min_element(places, {}, &sizing::SizeLimit::size);
+std::optional<TooFewPoints> too_small_size(const LayoutContext& context, std::span<const sizing::SizeLimit> places) {
   const geometry::Box box = context.given_boundary.bounding_box();
-  return {
-      fmt::format("points = {} are too few for this size: near {} it falls to {:.3g} of the width of the shape even "
-                  "where the triangles elsewhere are as large as the shape, and it grows by at most {:g} per length "
-                  "from there; use more points, a size with a larger smallest value, or min_size in [sizing] "
-                  "('gradation = none' uses the size as it is)",
-                  *context.options.points, Place(least.place, 4), least.size / std::fmax(box.width(), box.height()),
-                  *context.options.gradation)};
+  const double width = std::fmax(box.width(), box.height());
+  const auto least = std::ranges::min_element(places, {}, &sizing::SizeLimit::size);
+  if (least == places.end() || least->size > small_share * width)
+    return std::nullopt;
+  return TooFewPoints{fmt::format(
+      "points = {} are too few for this size: near {} it is {:.3g} of the width of the shape even where the largest "
+      "triangles are as wide as the shape, and it grows by at most {:g} per length. Use more points, a size with a "
+      "larger smallest value, or min_size in [sizing]; 'gradation = none' uses the size as it is",
+      *context.options.points, Place(least->place, 4), least->size / width, *context.options.gradation)};
 }
 
 /// Rounds a number of points up to two digits.

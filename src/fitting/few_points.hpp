@@ -34,9 +34,9 @@ struct Fewest {
 TooFewPoints too_few_points(const LayoutContext& context, double fewest, bool counted = true);
 TooFewPoints too_few_points(const LayoutContext& context, const Fewest& fewest);
 
-/// Returns the message if the size is limited at places, because it is too small at some of them. @pre `places` is not
-/// empty
-TooFewPoints too_steep_size(const LayoutContext& context, std::span<const sizing::SizeLimit> places);
+/// @brief Says so if the size is so low at one of the places that the mesh has too many points.
+/// @param places where the size is limited, at the largest factor that was tried
+std::optional<TooFewPoints> too_small_size(const LayoutContext& context, std::span<const sizing::SizeLimit> places);
 
 /// @brief Says so if the shape is so thin nearly everywhere that the simplified curves of the stage enclose several
 /// times its area: then the mesh would be of another shape.

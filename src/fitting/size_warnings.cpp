@@ -54,9 +54,10 @@ void warn_of_lowered_growth(const SteepPlaces& steep, double gradation, Log& log
   if (steep.limits.empty())
     return;
   log.warning("the size grows by up to {:.3g} per length near {}, but by at most {:g} in the mesh (gradation in "
-              "[sizing]): it is lowered around {} places{}; a larger gradation follows the size more closely, and "
+              "[sizing]), so it is lowered around {} place{}{}. A larger gradation follows the size more closely, and "
               "'none' uses it as it is",
               steep.steepest.slope, Place(steep.steepest.place, 4), gradation, steep.limits.size(),
+              steep.limits.size() == 1 ? "" : "s",
               steep.limits.size() >= sizing::SizingRules::most_steep_places
                   ? ", the largest number that is possible, and may be too steep at others"
                   : "");

@@ -37,7 +37,7 @@ struct Stage {
   double coarsening = 1;   ///< h of this stage divided by h of the last stage
   double typical_size = 1; ///< edge length of equilateral triangles that would fill the shape with as many points
   std::unique_ptr<sizing::ScaledSize> scaled_size;   ///< size before it is lowered, for the last stage
-  std::unique_ptr<sizing::LoweredSize> limited_size; ///< the same with limited growth; null if it grows slowly
+  std::unique_ptr<sizing::LoweredSize> limited_size; ///< scaled_size with limited growth; null if it grows slowly
   std::unique_ptr<sizing::LoweredSize>
       lowered_size;                        ///< lowered size, for the last stage; null if it is lowered nowhere
   std::unique_ptr<sizing::SizeField> size; ///< size of this stage

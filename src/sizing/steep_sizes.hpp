@@ -59,7 +59,7 @@ private:
   struct Seed {
     geometry::Vec2 low, high;
     double size;  ///< at `low`
-    double slope; ///< of the size between both places
+    double slope; ///< growth of the size between both places
   };
   Sample sample(int i, int j) const;
   std::optional<Seed> seed_at(int i, int j, const ScaledSize& asked, double gradation) const;
@@ -73,8 +73,8 @@ private:
   int columns_ = 0, rows_ = 0;
   geometry::Box box_;
   int first_row_ = 0, last_row_ = 0;                // the rows of this rank, and one more on each side
-  std::vector<Sample> samples_;                     // of these rows, row by row
-  std::optional<geometry::SegmentGrid> segments_{}; // of the boundary; made when a steep place was found
+  std::vector<Sample> samples_;                     // samples of these rows, row by row
+  std::optional<geometry::SegmentGrid> segments_{}; // chords of the boundary; made when a steep place was found
 };
 
 } // namespace trime::sizing
