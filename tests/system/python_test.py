@@ -32,6 +32,8 @@ DISC = {"shape": {"geometry": "difference(disc, hole)",
 
 def setUpModule():
     os.environ.update(users_environment(1), TRIME_PROGRAM=PROGRAM, TRIME_MPIEXEC=MPIEXEC)
+    # Directories of other tests that run at the same time do not count.
+    tempfile.tempdir = unittest.enterModuleContext(tempfile.TemporaryDirectory(prefix="tp-"))
 
 
 def changed(**sections):
