@@ -22,6 +22,7 @@ std::variant<StageFit, TooFewPoints> Fit::find_density(double points, double coa
     return std::move(*few);
   SizeTrial& trial = std::get<SizeTrial>(found);
   fitted_ = std::move(trial.fitted);
+  fitted_.steep.sizes.reset(); // the factor stays, so its samples would only take memory during the sweeps
   return std::move(trial.fit);
 }
 
