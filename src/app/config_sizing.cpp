@@ -130,9 +130,9 @@ sizing::NamedSize named_size(std::string_view entry) {
   double length = 0;
   const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), length);
   if (name.empty() || error != std::errc() || end != number.data() + number.size())
-    throw ConfigError(fmt::format("expected NAME LENGTH, for example 'coast 200', found {}", quoted(entry)));
+    throw ConfigError(fmt::format("expected NAME LENGTH, for example 'coast 200', found {}", trime::quoted(entry)));
   if (!(length > 0) || !std::isfinite(length))
-    throw ConfigError(fmt::format("expected a positive length for {}, found {}", quoted(name), number));
+    throw ConfigError(fmt::format("expected a positive length for {}, found {}", trime::quoted(name), number));
   return {std::string(name), length};
 }
 
@@ -140,10 +140,10 @@ sizing::NamedSize named_size(std::string_view entry) {
 void check_within_bounds(const sizing::NamedSize& named, const meshing::MeshOptions& mesh) {
   if (mesh.min_size && named.size < *mesh.min_size)
     throw ConfigError(fmt::format("the length {:.6g} of {} is below 'min_size = {:.6g}'", named.size,
-                                  quoted(named.name), *mesh.min_size));
+                                  trime::quoted(named.name), *mesh.min_size));
   if (mesh.max_size && named.size > *mesh.max_size)
     throw ConfigError(fmt::format("the length {:.6g} of {} is above 'max_size = {:.6g}'", named.size,
-                                  quoted(named.name), *mesh.max_size));
+                                  trime::quoted(named.name), *mesh.max_size));
 }
 
 /// The lengths are absolute, and the size grows from them by a gradation.

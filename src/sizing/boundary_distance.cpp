@@ -55,7 +55,7 @@ geometry::Boundary pieces_named(const geometry::Boundary& boundary, std::string_
         pieces.push_back(piece);
   if (pieces.empty())
     throw ConfigError(name.empty() ? "the shape has no boundary"
-                                   : fmt::format("no edge of the boundary belongs to {}", quoted(name)));
+                                   : fmt::format("no edge of the boundary belongs to {}", trime::quoted(name)));
   return found;
 }
 
@@ -68,7 +68,7 @@ std::vector<int> parts_named(std::string_view name, const std::vector<std::strin
       found.push_back(static_cast<int>(k));
   if (found.empty()) {
     const std::vector<std::string> known = names_of(part_names);
-    throw ConfigError(fmt::format("no part of the boundary has the name {}{}; known names: {}", quoted(name),
+    throw ConfigError(fmt::format("no part of the boundary has the name {}{}; known names: {}", trime::quoted(name),
                                   suggestion(name, known), fmt::join(known, ", ")));
   }
   return found;
@@ -96,8 +96,8 @@ BoundarySize::BoundarySize(const SizeField& field, const geometry::Boundary& bou
       const NamedSize& first = *size_of_part.emplace(part, &named).first->second;
       if (first.size != named.size)
         throw ConfigError(fmt::format("the boundary {} has two sizes: {:.6g} as {} and {:.6g} as {}",
-                                      quoted(boundary.part_names[static_cast<std::size_t>(part)]), first.size,
-                                      quoted(first.name), named.size, quoted(named.name)));
+                                      trime::quoted(boundary.part_names[static_cast<std::size_t>(part)]), first.size,
+                                      trime::quoted(first.name), named.size, trime::quoted(named.name)));
     }
     sources_.push_back({named.size, BoundaryDistance(boundary, named.name, images)});
   }
