@@ -3,6 +3,7 @@
 
 #include "core/distance_formula.hpp"
 #include "core/quoted.hpp"
+#include "sizing/rules.hpp"
 #include "trime/core/error.hpp"
 
 #include <charconv>
@@ -11,12 +12,6 @@
 
 namespace trime::app {
 namespace {
-
-// [1] Growth of the automatic size per length if none is given, as in TriMe++.
-constexpr double automatic_gradation = 0.1;
-
-// [1] Largest growth of a formula per length if none is given: triangles follow it with a largest alpha below 1.6.
-constexpr double formula_gradation = 0.3;
 
 // [1] Growth of a uniform size per length from the lengths in size_at, if none is given.
 constexpr double boundary_gradation = 0.15;
@@ -70,9 +65,9 @@ void read_gradation(const Settings& settings, RunOptions& options, Diagnostics& 
   if (type == "automatic") {
     if (settings.text("sizing", "gradation") == "none")
       refuse("expected a number, because the automatic size grows by this number per length");
-    growth = options.sizing.gradation = given.value_or(automatic_gradation);
+    growth = options.sizing.gradation = given.value_or(SizingOptions().gradation);
   } else if (type == "expression" && settings.text("sizing", "gradation") == "auto") {
-    growth = formula_gradation;
+    growth = sizing::SizingRules::function_gradation;
   } else if (type == "expression" && given && *given == 0) {
     refuse("expected a number above 0, or none to use the formula as it is");
   }

@@ -7,6 +7,7 @@
 #include "facade/check_options.hpp"
 #include "facade/names.hpp"
 #include "formats/output_files.hpp"
+#include "sizing/rules.hpp"
 #include "trime/comm/from_mpi.hpp"
 #include "trime/core/error.hpp"
 #include "trime/core/log.hpp"
@@ -20,6 +21,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <numeric>
@@ -75,12 +77,11 @@ void check_running() {
 
 /// The largest growth of h, as in the program. Empty: the size is used as it is.
 std::optional<double> growth_of(const MeshOptions& given, const Size& size) {
-  constexpr double of_functions = 0.3;
   if (given.gradation)
     return std::isfinite(*given.gradation) ? given.gradation : std::nullopt;
   if (size.is_automatic())
     return size.gradation() > 0 ? std::optional(size.gradation()) : std::nullopt;
-  return size.function() || size.field() ? std::optional(of_functions) : std::nullopt;
+  return size.function() || size.field() ? std::optional(sizing::SizingRules::function_gradation) : std::nullopt;
 }
 
 meshing::MeshOptions lower_options(const MeshOptions& given, const Size& size) {

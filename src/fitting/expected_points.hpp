@@ -7,8 +7,8 @@
 namespace trime::fitting {
 
 /// @brief Returns the number of points that was asked for, or about as many as the edge length or the absolute sizes
-/// take. Cost: for absolute sizes an integral over the shape with 0.2 cells for each point, at most
-/// six times. Collective.
+/// take. Cost: for absolute sizes an integral over the shape with 0.2 cells for each point, at most six times.
+/// Collective.
 /// @throws GeometryError on all ranks together if a size is not positive and finite
 double expected_points(const LayoutContext& context);
 

@@ -95,12 +95,6 @@ std::optional<TooFewPoints> too_small_size(const LayoutContext& context, std::sp
       *context.options.points, Place(least->place, 4), least->size / width, *context.options.gradation)};
 }
 
-/// Rounds a number of points up to two digits.
-double rounded_up(double points) {
-  const double unit = std::pow(10, std::max(0.0, std::floor(std::log10(std::max(points, 1.0))) - 1));
-  return unit * std::ceil(points / unit);
-}
-
 std::optional<TooFewPoints> too_thin(const LayoutContext& context, const Stage& stage) {
   const geometry::Boundary& given = context.given_boundary;
   if (!stage.curves || !(stage.curves->area > largest_growth * given.area))

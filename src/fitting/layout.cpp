@@ -104,8 +104,10 @@ void find_steep_places(const LayoutContext& context, const Stage& stage, FittedS
     steep.steepest = found.steepest;
     steep.factor = asked.factor();
   }
-  for (sizing::SizeLimit& limit : steep.limits)
-    limit.size = asked.size(limit.place);
+  comm::run_agreed(context.comm, [&] { // a size of the user may throw on one rank
+    for (sizing::SizeLimit& limit : steep.limits)
+      limit.size = asked.size(limit.place);
+  });
 }
 
 /// The sizes of a stage from what `fitted` says and its coarsening. Collective.

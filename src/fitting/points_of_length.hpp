@@ -24,4 +24,10 @@ inline double estimated_size(double area, double perimeter, double n) {
   return (b + std::sqrt(b * b + 4 * a * n)) / (2 * n);
 }
 
+/// Rounds a number of points up to a number with two digits, for messages.
+inline double rounded_up(double points) {
+  const double unit = std::pow(10, std::fmax(0, std::floor(std::log10(std::fmax(points, 1))) - 1));
+  return std::ceil(points / unit) * unit;
+}
+
 } // namespace trime::fitting

@@ -20,6 +20,7 @@ namespace {
 using fitting::LaidOutlook;
 using fitting::LayoutContext;
 using fitting::LayoutRules;
+using fitting::rounded_up;
 using sites::Stage;
 
 /// The last stage of a run with few points, laid out exactly as the run does. The stage refers to this object.
@@ -71,12 +72,6 @@ bool keeps_with(const RunContext& run, const LayoutContext& layout, double point
   } catch (const GeometryError&) { // no mesh at this size: all ranks throw it together
     return false;
   }
-}
-
-/// The next larger number with two digits.
-double rounded_up(double count) {
-  const double unit = std::pow(10, std::fmax(0, std::floor(std::log10(std::fmax(count, 1))) - 1));
-  return std::ceil(count / unit) * unit;
 }
 
 /// The next smaller number with three digits.

@@ -38,6 +38,9 @@ struct SizingRules {
   /// boundary is at least this share of its radius.
   static constexpr double nearly_empty_share = 0.7;
 
+  /// [1] Largest growth of a formula or function per length, unless the user sets another: triangles follow it with a
+  /// largest alpha below 1.3. Measured on 40 meshes with jumps, kinks, bands and 10^(5x), 5e3 to 1e5 points.
+  static constexpr double function_gradation = 0.3;
   /// [samples] Largest number of samples in which steep places are looked for. Not measured.
   static constexpr double most_steep_samples = 1 << 20;
   /// [cells] Smallest number of cells with a sample along a side of the box around the shape. Not measured.

@@ -51,7 +51,7 @@ TEST(Poly, HolePointsSayWhatIsMeshed) {
 }
 
 TEST(Poly, OpenLinesAreLeftOutWithAWarning) {
-  // A square with a fault line inside and a line of two segments from a corner, in one vertex of which they meet twice.
+  // A square with a fault line inside, and a line of two segments that begins at a corner; its ends meet in one vertex.
   const std::string vertices = "8 2 0 0\n1 0 0\n2 8 0\n3 8 8\n4 0 8\n5 3 3\n6 6 5\n7 2 4\n8 2 4\n";
   const std::string square = "1 1 2\n2 2 3\n3 3 4\n4 4 1\n";
   const Contour contour = parse_poly(vertices + "7 0\n" + square + "5 5 6\n6 8 7\n7 1 7\n0\n", "a.poly");
