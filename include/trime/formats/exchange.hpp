@@ -55,7 +55,7 @@ struct Names {
   std::string crs{};
   /// Names of the parts that are open in fort14 (see configs/formats.md). No list: those whose name says it.
   std::optional<std::vector<std::string>> open_boundary{};
-  /// True if the files of fort14 and 2dm hold longitude and latitude, not the coordinates of the mesh; needs `crs`.
+  /// The files of fort14 and 2dm hold longitude and latitude, not the coordinates of the mesh. Needs `crs`.
   bool in_degrees = false;
 };
 
