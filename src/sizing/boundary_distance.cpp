@@ -2,6 +2,7 @@
 #include "sizing/boundary_distance.hpp"
 
 #include "core/quoted.hpp"
+#include "sizing/coarse_curves.hpp"
 #include "trime/core/error.hpp"
 
 #include <fmt/ranges.h>
@@ -75,7 +76,25 @@ std::vector<int> parts_named(std::string_view name, const std::vector<std::strin
 }
 
 BoundaryDistance::BoundaryDistance(const geometry::Boundary& boundary, std::string_view name, const Images& images)
-    : images_(images), locator_(pieces_named(boundary, name), images_) {}
+    : images_(images) {
+  constexpr int most_copies = 8;
+  constexpr double between_copies = 4; // factor between the deviations of two copies
+  constexpr double worth_a_copy = 0.5; // a copy with a larger share of the pieces saves little
+  geometry::Boundary curves = pieces_named(boundary, name);
+  const std::vector<geometry::Piece> given = std::move(curves.loops.front().pieces);
+  const geometry::Box box = boundary.bounding_box();
+  double deviation = far_deviation * geometry::length(box.max - box.min); // the diagonal: no distance inside is larger
+  for (int copy = 0; copy < most_copies; ++copy) {
+    deviation /= between_copies;
+    std::vector<geometry::Piece> coarse = coarse_curves(given, deviation);
+    if (static_cast<double>(coarse.size()) > worth_a_copy * static_cast<double>(given.size()))
+      break;
+    curves.loops.front().pieces = std::move(coarse);
+    copies_.push_back({deviation, PieceLocator(curves, images_)});
+  }
+  curves.loops.front().pieces = given;
+  copies_.push_back({0, PieceLocator(curves, images_)});
+}
 
 double BoundaryDistance::distance(geometry::Vec2 p) const {
   return distance_within(p, infinity);
@@ -83,8 +102,19 @@ double BoundaryDistance::distance(geometry::Vec2 p) const {
 
 double BoundaryDistance::distance_within(geometry::Vec2 p, double reach) const {
   const geometry::Vec2 place = images_.wrap(p);
-  const auto nearest = locator_.nearest(place, reach);
-  return nearest ? geometry::length(nearest->point - place) : reach;
+  double bound = reach;
+  for (auto copy = copies_.begin(); copy != copies_.end();) {
+    const auto nearest = copy->locator.nearest(place, bound + copy->deviation);
+    if (!nearest)
+      return bound;
+    const double distance = geometry::length(nearest->point - place);
+    const auto is_precise = [&](const Copy& c) { return c.deviation <= far_deviation * distance; };
+    if (is_precise(*copy))
+      return std::fmin(distance, bound);
+    bound = std::fmin(bound, distance + copy->deviation);
+    copy = std::find_if(std::next(copy), copies_.end(), is_precise);
+  }
+  return bound;
 }
 
 BoundarySize::BoundarySize(const SizeField& field, const geometry::Boundary& boundary,

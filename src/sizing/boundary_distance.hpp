@@ -18,24 +18,34 @@ namespace trime::sizing {
 /// @throws ConfigError that lists the known names if there is no such part
 std::vector<int> parts_named(std::string_view name, const std::vector<std::string>& part_names);
 
-/// Finds the distance to the parts of a boundary. Immutable; queries are thread-safe and give the same bits on every
-/// rank.
+/// @brief Finds the distance to the parts of a boundary. Immutable; queries are thread-safe and give the same bits on
+/// every rank.
+///
+/// Seen from far away, many short pieces are almost equally near. Therefore coarser copies of the curves are kept, and
+/// a query uses the coarsest copy that is precise enough for the distance.
 class BoundaryDistance {
 public:
-  /// Builds the search tree in O(M) time for M pieces.
+  /// Builds the copies and their search trees in O(M log M) time for M pieces.
   /// @param images those of the container of the boundary
   /// @throws ConfigError if no part has the name, or if the parts with this name have no piece
   BoundaryDistance(const geometry::Boundary& boundary, std::string_view name, const Images& images);
 
   /// Returns the distance from p to the nearest point of these parts and of their periodic images. The distance is
-  /// correct within 0.05 %, see PieceLocator::slack. Cost: O(log M) for curves.
+  /// correct within 0.07 %, see PieceLocator::slack and `far_deviation`. Cost: O(log M) for curves.
   double distance(geometry::Vec2 p) const;
   /// Returns the smaller one of this distance and `reach`. A small reach makes the search faster.
   double distance_within(geometry::Vec2 p, double reach) const;
 
+  /// [1] A copy whose distance from the curves is at most this share of a distance is precise enough for it.
+  static constexpr double far_deviation = 2e-4;
+
 private:
+  struct Copy {
+    double deviation; ///< largest distance between the copy and the curves
+    PieceLocator locator;
+  };
   Images images_;
-  PieceLocator locator_;
+  std::vector<Copy> copies_; ///< the coarsest one first; the last one holds the curves themselves
 };
 
 /// A length that the size has on the parts of the boundary with a name.
