@@ -99,8 +99,9 @@ void report_placement(const Placement& placement, const comm::Communicator& comm
     return; // its cores are not those of this machine
   if (crowded > 0 && node_cores > 0 && most_used > node_cores)
     log.warning("{} of {} ranks have more threads than cores they may use (rank 0: {} threads, {} cores); the node has "
-                "{} core{}: set --threads {}",
-                crowded, placement.ranks, used, placement.cores, node_cores, node_cores == 1 ? "" : "s", node_cores);
+                "{} core{}: {}set --threads {}",
+                crowded, placement.ranks, used, placement.cores, node_cores, node_cores == 1 ? "" : "s",
+                placement.cores < node_cores ? "start with mpirun --bind-to none and " : "", node_cores);
   else if (crowded > 0)
     log.warning("{} of {} ranks have more threads than cores they may use (rank 0: {} threads, {} cores); start with "
                 "mpirun --map-by slot:PE={} or --bind-to none, or set --threads",

@@ -49,7 +49,8 @@ std::string size_text(const SizeSummary& size, const mesh::GrowthSummary& growth
                                   ? fmt::format("{:.6g}", size.largest)
                                   : fmt::format("from {:.6g} to {:.6g}", size.smallest, size.largest);
   std::string text = fmt::format("{}; target edge length {}", size.description, lengths);
-  if (growth.largest > 0)
+  constexpr double least_growth = 5e-4; // a smaller one is that of rounding, or nothing that a user would see
+  if (growth.largest >= least_growth)
     text += fmt::format(", which grows by {:.3g} per length (99 % of the edges; at most {:.3g})", growth.of_99_percent,
                         growth.largest);
   return text;

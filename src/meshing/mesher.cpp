@@ -328,14 +328,20 @@ void Run::tell_of_start(MeshResult& result) const {
 /// Why there are fewer points than asked for; empty if there are nearly as many.
 std::string Run::count_reason(GlobalId points) const {
   const std::optional<GlobalId>& asked = run_.fit.points;
-  if (!asked || static_cast<double>(points) >
-                    MeshingRules::shortage_note * static_cast<double>(*asked) - MeshingRules::shortage_slack)
+  if (!asked)
+    return {};
+  const double made = static_cast<double>(points), wanted = static_cast<double>(*asked);
+  const bool is_warned = made < MeshingRules::shortage_warning * wanted;
+  if (!is_warned && made > MeshingRules::shortage_note * wanted - MeshingRules::shortage_slack)
     return {};
   if (!scheme_.shortage().empty())
     return scheme_.shortage();
+  const GlobalId removed = placed_ + cleanup_.inserted - cleanup_.deleted - points;
+  if (removed <= 0)
+    return "so few triangles leave no room for more points inside the shape";
   return fmt::format("{} points were removed because they came too near to the boundary or to each other; the "
                      "remaining ones were left out at the start",
-                     placed_ + cleanup_.inserted - cleanup_.deleted - points);
+                     removed);
 }
 
 } // namespace
