@@ -186,7 +186,8 @@ bool Web::area_on_left(const Arm& arm, Vec2 place) const {
 
 /// @brief If possible, the vertex moves to where no disc over an arm of another sector holds it, and no disc over its
 /// arms holds the place. That is a direction at least 90 degrees from the former arms and at most 90 degrees from the
-/// latter.
+/// latter. In a reflex sector a direction must lie to the left of the first arm and to the right of the second; from
+/// elsewhere the edges would cross all other arms.
 Web::Sector Web::sector(const std::vector<Arm>& arms, std::size_t first, Vec2 place) const {
   const std::size_t second = (first + 1) % arms.size();
   const auto direction_of = [&](std::size_t k) { return unit(arms[k].toward - place); };
@@ -197,6 +198,8 @@ Web::Sector Web::sector(const std::vector<Arm>& arms, std::size_t first, Vec2 pl
   Vec2 best = middle;
   for (const double share : ShapeRules::tried_directions) { // from the middle of the sector towards its arms
     const Vec2 d = unit(middle + std::fabs(share) * ((share < 0 ? w : u) - middle));
+    if (share != 0 && (cross(u, d) <= 0 || cross(d, w) <= 0))
+      continue;
     double worst = std::fmax(-dot(d, u), -dot(d, w));
     for (std::size_t k = 0; k < arms.size(); ++k)
       if (k != first && k != second)
