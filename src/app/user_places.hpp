@@ -42,7 +42,7 @@ public:
 
 private:
   struct OneContour {
-    std::string file;
+    contours::Contour named; ///< the contour without its rings, for messages
     contours::Normalization place;
     bool moved;
     geometry::Box box; ///< bounding box in the container

@@ -315,7 +315,8 @@ class Maps(unittest.TestCase):
             found, done = self.mesh(work, "coast.geojson", *auto, "output.formats=vtkhdf xdmf geojson", ranks=3)
             self.assertEqual(hashes, {found})
             self.assertRegex(done.stdout, r"projection: \+proj=stere \+lat_0=60\.\d+ \+lon_0=[45]")
-            self.assertRegex(done.stdout, r"worst triangle at .* \[.*coast\.geojson:\d+: \([456]\.\d+, 6[01]\.\d+\)\]")
+            self.assertRegex(done.stdout, r"worst triangle at .* \[.*coast\.geojson:\d+: "
+                                          r"longitude [456]\.\d+, latitude 6[01]\.\d+\]")
             with h5py.File(work / "case.h5") as file:
                 self.assertTrue(file["trime_mpi"].attrs["crs"].startswith(b"+proj=stere"))
                 self.assertIn("Stereographic", file["trime_mpi/crs_wkt"][()].decode())
@@ -376,6 +377,8 @@ class Maps(unittest.TestCase):
                     done = run(work / "case.ini", "--validate")
                     self.assertEqual(done.returncode, 3)
                     self.assertIn("set 'overlap = union'", done.stderr)
+                    self.assertRegex(done.stderr, r"geojson \(feature \d+, '\w+'\): an edge (crosses|touches) an edge "
+                                                  r"of feature \d+, '\w+' near \(")
                 done = run(work / "case.ini", "shape.land.overlap=union", "meshing.keep_features=true",
                            f"output.directory={work}", "output.overwrite=true", "--verbose")
                 self.assertEqual(done.returncode, 0, done.stderr)
