@@ -200,7 +200,8 @@ void Placement::check_turns(const std::vector<Vec2>& p, const std::vector<int>& 
 
 /// Replaces the rings by those around the union of all polygons.
 void Placement::unite(std::vector<std::string>& notes) {
-  Dissolved dissolved = dissolve(rings_, frame_, contour_.source);
+  Dissolved dissolved =
+      dissolve(rings_, frame_, {contour_.source, touches_.widest_gap, [this](Vec2 p) { return in_file(p); }});
   rings_ = std::move(dissolved.rings);
   const double scale = normalization_.scale;
   notes.push_back(
@@ -208,6 +209,11 @@ void Placement::unite(std::vector<std::string>& notes) {
                   "and overlap by an area of {:.4g}",
                   contour_.source, dissolved.polygons, dissolved.polygons == 1 ? " is" : "s are", rings_.size(),
                   dissolved.shared_length / scale, std::fmax(0, dissolved.overlap) / (scale * scale)));
+  if (dissolved.gaps > 0)
+    notes.push_back(fmt::format("{}: {} gap{} between polygons, narrower than {:.3g} and {:.4g} in area, {} closed",
+                                contour_.source, dissolved.gaps, dissolved.gaps == 1 ? "" : "s",
+                                touches_.widest_gap / scale, dissolved.gap_area / (scale * scale),
+                                dissolved.gaps == 1 ? "is" : "are"));
 }
 
 /// Separates rings that touch, less far where they would cross then.
