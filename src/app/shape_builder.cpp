@@ -179,6 +179,8 @@ ShapeInput read_shape(const RunOptions& given, ShapeUse use, const comm::Communi
       normalized.push_back({part.name, part.file, place.scale, place.to - place.scale * place.from});
     tell_of(parts.back(), log);
   }
+  if (!map.crs.empty())
+    found.set_on_earth([map](geometry::Vec2 place) { return on_earth(map, place); });
   places = std::move(found);
   ShapeInput input{{}, {}, fixed_points_place, std::move(normalized), std::move(map)};
   if (use == ShapeUse::queries)

@@ -58,7 +58,9 @@ std::string UserPlaces::name_of(Vec2 place) const {
   if (contour == nullptr)
     return "";
   const bool projected = !contour->in_file.empty();
-  const Vec2 user = projected ? contour->in_file[vertex] : contour->place.undo(place);
+  Vec2 user = projected ? contour->in_file[vertex] : contour->place.undo(place);
+  if (contour->named.in_degrees && on_earth_)
+    user = on_earth_(place).value_or(user);
   const std::string file = contours::where(contour->named, contour->lines[vertex]);
   if (!contour->moved && !projected)
     return fmt::format(" [{}]", file);

@@ -98,6 +98,8 @@ public:
     if (object.type == "Feature" && is_feature_at(objects_.size())) {
       for (const std::string& name : object.attributes)
         rings_.has_attribute(name);
+      if (objects_.empty()) // the whole text is this feature
+        feature_.number = 1;
       rings_.end_feature(object.attribute, feature_);
     }
     return true;

@@ -240,7 +240,7 @@ void Placement::tell_touches(const std::vector<RingTouch>& touches, double gap,
   const std::size_t told = std::min(touches.size(), most_told);
   for (const RingTouch& touch : std::span(touches).first(told))
     warnings.push_back(
-        fmt::format("{}: two rings touch at {} (the other one at {}); they are moved apart by "
+        fmt::format("{}: two rings touch at {} (the other one: {}); they are moved apart by "
                     "{:.2g} there, so that no triangles meet across this point: nothing is connected there, whatever "
                     "meshing.connect says",
                     where(contour_, touch.line), in_file(touch.place), line_or_feature(contour_, touch.other_line),
@@ -268,17 +268,19 @@ void Placement::report(const SegmentGrid& grid, const SegmentPair& pair) const {
     line[k] = rings_[ring[k]].lines[index];
   }
   const bool same = ring[0] == ring[1], crossing = meeting_of(s, t) == Meeting::crossing;
-  const bool is_map = contour_.is_map;
+  const bool is_map = contour_.is_map,
+             one_polygon = rings_[ring[0]].polygon == rings_[ring[1]].polygon && rings_[ring[0]].polygon != 0;
   const char* remedy =
-      !same && is_map    ? "polygons of a map must neither overlap nor share borders; set 'overlap = union' in the "
-                           "section of this contour to unite them"
-      : same && is_map   ? "a ring must neither cross nor touch itself; ogr2ogr -makevalid may repair it"
-      : same && crossing ? "a ring must not cross itself; is a blank line between two rings missing?"
-      : same             ? "a ring touches itself; is a blank line between two rings missing?"
-      : crossing         ? "two rings must not cross; to join areas, make each one a separate part and unite them in "
-                           "'geometry', or dissolve their common borders first, as QGIS does"
-                         : "two rings touch or overlap along an edge, or cross at a vertex; make each one a separate "
-                           "part and unite them in 'geometry', or dissolve their common borders first, as QGIS does";
+      !same && one_polygon ? "rings of one polygon must not cross; ogr2ogr -makevalid may repair it"
+      : !same && is_map    ? "polygons of a map must neither overlap nor share borders; set 'overlap = union' in the "
+                             "section of this contour to unite them"
+      : same && is_map     ? "a ring must neither cross nor touch itself; ogr2ogr -makevalid may repair it"
+      : same && crossing   ? "a ring must not cross itself; is a blank line between two rings missing?"
+      : same               ? "a ring touches itself; is a blank line between two rings missing?"
+      : crossing           ? "two rings must not cross; to join areas, make each one a separate part and unite them in "
+                             "'geometry', or dissolve their common borders first, as QGIS does"
+                           : "two rings touch or overlap along an edge, or cross at a vertex; make each one a separate "
+                             "part and unite them in 'geometry', or dissolve their common borders first, as QGIS does";
   throw GeometryError(fmt::format("{}: {} {} {} near {}; {}", where(contour_, line[0]),
                                   contour_.features.empty() ? "the edge that starts here" : "an edge",
                                   crossing ? "crosses" : "touches", other_edge(line), in_file(meeting_point(s, t)),

@@ -84,6 +84,8 @@ TEST(GeoJson, EdgesThatCrossAreThoseOfFeatures) {
   EXPECT_EQ(refused().find("a.geojson:3 (feature 1, 'Als'): an edge crosses an edge of feature 2 near (0.5, 0.1); "),
             0u)
       << refused();
+  contour.rings[1].polygon = contour.rings[0].polygon;
+  EXPECT_NE(refused().find("rings of one polygon must not cross; ogr2ogr -makevalid"), std::string::npos) << refused();
   for (ContourRing& ring : contour.rings) { // as a projection does it
     ring.in_file = ring.points;
     for (Vec2& p : ring.in_file)
