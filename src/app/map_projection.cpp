@@ -3,6 +3,7 @@
 
 #include "app/straight_edges.hpp"
 #include "contours/date_line.hpp"
+#include "contours/map_features.hpp"
 #include "core/quoted.hpp"
 #include "projection/projection.hpp"
 #include "trime/core/error.hpp"
@@ -23,8 +24,8 @@ std::string system_of(const Contour& contour) {
 }
 
 [[noreturn]] void refuse(const Contour& contour, const ContourRing& ring, std::size_t k, const std::string& why) {
-  throw GeometryError(fmt::format("{}:{}: the vertex ({:.12g}, {:.12g}) cannot be projected: {}", contour.source,
-                                  ring.lines[k], ring.points[k].x, ring.points[k].y, why));
+  throw GeometryError(fmt::format("{}: the vertex ({:.12g}, {:.12g}) cannot be projected: {}",
+                                  contours::where(contour, ring.lines[k]), ring.points[k].x, ring.points[k].y, why));
 }
 
 /// Checks that coordinates in degrees lie on the Earth.
@@ -203,7 +204,8 @@ MapSystem as_it_is(const RunOptions& options, std::span<const Contour> contours,
 
 void project_contour(Contour& contour, const std::string& plane) {
   const std::string system = system_of(contour);
-  if (projection::is_geographic(system))
+  contour.in_degrees = projection::is_geographic(system);
+  if (contour.in_degrees)
     check_degrees(contour);
   const projection::Transform transform(system, plane);
   for (ContourRing& ring : contour.rings) {

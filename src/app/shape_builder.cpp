@@ -17,6 +17,9 @@ namespace {
 
 // [h] Where nothing is simplified, rings that touch are separated by this: triangles around the gap are about as small.
 constexpr double kept_gap = 0.1;
+// [h] Gaps between united polygons that are narrower are closed: they come from polygons that were digitised one by
+// one.
+constexpr double closed_gap = 0.01;
 
 std::string hint_of(bool is_relative) {
   return is_relative ? " (relative to the config file, not to the working directory)" : "";
@@ -100,14 +103,15 @@ geometry::Box automatic_container(const RunOptions& options, std::span<const con
   return geometry::container_around(region_of(options).box(boxes));
 }
 
-/// By the size of the triangles: if nothing is simplified, nothing widens a gap later.
-double touch_gap(const RunOptions& options, const geometry::Box& container) {
+/// How rings of a contour that touch are separated, and gaps between united polygons closed, at the size h of the
+/// triangles.
+shape::TouchOptions touch_options(const RunOptions& options, const PartOptions& part, bool outside,
+                                  const geometry::Box& container) {
   const boundary::FeatureOptions& features = options.mesh.features;
-  if (!features.keep_all && features.within > 0)
-    return 0;
   const double h = options.mesh.edge_length.value_or(fitting::estimated_size(
       container.width() * container.height(), 0, static_cast<double>(options.mesh.points.value_or(1000))));
-  return kept_gap * h;
+  const bool keeps_all = features.keep_all || !(features.within > 0); // nothing widens a gap later
+  return {outside, part.dissolve, keeps_all ? kept_gap * h : 0, features.keep_all ? 0 : closed_gap * h};
 }
 
 /// @param contour of a part that is one @param place what its vertices undergo
@@ -165,7 +169,7 @@ ShapeInput read_shape(const RunOptions& given, ShapeUse use, const comm::Communi
     if (part.normalize)
       place = contours::fit_to_container(contours[k], frame.container());
     parts.push_back(build_part(part, contours[k], place, frame,
-                               {region.subtracts(static_cast<int>(k)), part.dissolve, touch_gap(options, container)}));
+                               touch_options(options, part, region.subtracts(static_cast<int>(k)), container)));
     if (part.type == "contour" && comm.is_root())
       found.add(contours[k], place);
     contours[k] = {};
@@ -175,6 +179,8 @@ ShapeInput read_shape(const RunOptions& given, ShapeUse use, const comm::Communi
       normalized.push_back({part.name, part.file, place.scale, place.to - place.scale * place.from});
     tell_of(parts.back(), log);
   }
+  if (!map.crs.empty())
+    found.set_on_earth([map](geometry::Vec2 place) { return on_earth(map, place); });
   places = std::move(found);
   ShapeInput input{{}, {}, fixed_points_place, std::move(normalized), std::move(map)};
   if (use == ShapeUse::queries)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/user_places.hpp"
 
+#include "contours/map_features.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,7 +21,10 @@ constexpr double same_place = 1e-10;
 } // namespace
 
 void UserPlaces::add(const contours::Contour& contour, const contours::Normalization& place) {
-  OneContour one{contour.source, place, place.scale != 1 || place.from != place.to, {}, {}, {}, {}, {}};
+  OneContour one{{}, place, place.scale != 1 || place.from != place.to, {}, {}, {}, {}, {}};
+  one.named.source = contour.source;
+  one.named.features = contour.features;
+  one.named.in_degrees = contour.in_degrees;
   std::size_t count = 0;
   for (const contours::ContourRing& ring : contour.rings)
     one.ring_ends.push_back(count += ring.points.size());
@@ -53,10 +58,14 @@ std::string UserPlaces::name_of(Vec2 place) const {
   if (contour == nullptr)
     return "";
   const bool projected = !contour->in_file.empty();
-  const Vec2 user = projected ? contour->in_file[vertex] : contour->place.undo(place);
-  return contour->moved || projected
-             ? fmt::format(" [{}:{}: ({:.10g}, {:.10g})]", contour->file, contour->lines[vertex], user.x, user.y)
-             : fmt::format(" [{}:{}]", contour->file, contour->lines[vertex]);
+  Vec2 user = projected ? contour->in_file[vertex] : contour->place.undo(place);
+  if (contour->named.in_degrees && on_earth_)
+    user = on_earth_(place).value_or(user);
+  const std::string file = contours::where(contour->named, contour->lines[vertex]);
+  if (!contour->moved && !projected)
+    return fmt::format(" [{}]", file);
+  return contour->named.in_degrees ? fmt::format(" [{}: longitude {:.10g}, latitude {:.10g}]", file, user.x, user.y)
+                                   : fmt::format(" [{}: ({:.10g}, {:.10g})]", file, user.x, user.y);
 }
 
 std::vector<std::int32_t> UserPlaces::ring_lines(const geometry::Boundary& boundary) const {

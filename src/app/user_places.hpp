@@ -9,7 +9,10 @@
 #include "trime/geometry/vec2.hpp"
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace trime::app {
@@ -27,10 +30,15 @@ class UserPlaces {
 public:
   /// @param place the transformation of the vertices from the file into the container
   void add(const contours::Contour& contour, const contours::Normalization& place);
+  /// Sets how a place in the container is converted to longitude and latitude; it may return nothing.
+  void set_on_earth(std::function<std::optional<geometry::Vec2>(geometry::Vec2)> on_earth) {
+    on_earth_ = std::move(on_earth);
+  }
 
   /// @brief Returns the message with the file and line of the nearest contour vertex after each place: `[FILE:LINE]`.
   /// If the contour is normalised, the text is `[FILE:LINE: (x, y)]` with the place in coordinates of the file. If the
-  /// contour is projected, (x, y) are the coordinates of the nearest vertex in the file.
+  /// contour is projected, (x, y) are the coordinates of the nearest vertex in the file; if these are longitudes and
+  /// latitudes, the text is `[FILE:LINE: longitude x, latitude y]` with the place itself, if set_on_earth was called.
   /// Nothing is added to places that are far from all contours, or if there are no contours. Cost: O(vertices) for each
   /// place.
   std::string explain(const PlacedText& message) const;
@@ -42,7 +50,7 @@ public:
 
 private:
   struct OneContour {
-    std::string file;
+    contours::Contour named; ///< the contour without its rings, for messages
     contours::Normalization place;
     bool moved;
     geometry::Box box; ///< bounding box in the container
@@ -55,6 +63,7 @@ private:
   std::string name_of(geometry::Vec2 place) const;
 
   std::vector<OneContour> contours_;
+  std::function<std::optional<geometry::Vec2>(geometry::Vec2)> on_earth_; ///< may be empty
 };
 
 } // namespace trime::app

@@ -172,6 +172,7 @@ public:
   }
   void operator()(const ContourRing& ring) { members(*this, ring); }
   void operator()(const Contour& contour) { members(*this, contour); }
+  void operator()(const MapFeature& feature) { members(*this, feature); }
   std::string take() { return std::move(bytes_); }
 
   template <class Visitor, class Ring>
@@ -184,14 +185,22 @@ public:
     visit(ring.polygon);
   }
   template <class Visitor, class One>
+  requires std::is_same_v<std::remove_const_t<One>, MapFeature>
+  static void members(Visitor& visit, One& feature) {
+    visit(feature.line);
+    visit(feature.name);
+  }
+  template <class Visitor, class One>
   requires std::is_same_v<std::remove_const_t<One>, Contour>
   static void members(Visitor& visit, One& contour) {
     visit(contour.source);
     visit(contour.rings);
     visit(contour.warnings);
     visit(contour.marker_names);
+    visit(contour.features);
     visit(contour.crs);
     visit(contour.is_map);
+    visit(contour.in_degrees);
   }
 
 private:
@@ -229,6 +238,7 @@ public:
   }
   void operator()(ContourRing& ring) { Writer::members(*this, ring); }
   void operator()(Contour& contour) { Writer::members(*this, contour); }
+  void operator()(MapFeature& feature) { Writer::members(*this, feature); }
 
 private:
   void take(void* place, std::size_t count) {

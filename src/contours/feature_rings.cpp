@@ -2,6 +2,7 @@
 #include "contours/feature_rings.hpp"
 
 #include "contours/contour_text.hpp"
+#include "contours/map_features.hpp"
 #include "contours/segment_rings.hpp"
 #include "trime/core/error.hpp"
 
@@ -59,16 +60,27 @@ void FeatureRings::has_attribute(const std::string& name) {
     attributes_.insert(name);
 }
 
-void FeatureRings::end_feature(const std::optional<std::string>& value, const std::string& label) {
+/// Contour::features gets an entry for each feature, also for those without rings.
+void FeatureRings::note_feature(const FeatureName& feature) {
+  if (feature.number == 0)
+    return;
+  contour_.features.resize(static_cast<std::size_t>(feature.number));
+  contour_.features.back() = {of_feature_.front().vertices.front().line, cleaned(feature.name)};
+}
+
+void FeatureRings::end_feature(const std::optional<std::string>& value, const FeatureName& feature) {
   if (of_feature_.empty())
     return;
   const int number = number_of(value);
+  const std::string label = in_brackets(feature.number, cleaned(feature.name));
+  note_feature(feature);
   builder_.set_feature(label);
   for (Chain& chain : of_feature_) {
     for (const FilePoint& vertex : chain.vertices) // before ends are compared
       check_coordinates(vertex.position, contour_.source, vertex.line, label);
     if (chain.kind == Kind::line && chain.vertices.front().position != chain.vertices.back().position) {
       chain.label = label;
+      chain.feature = feature.number;
       open_lines_.push_back(std::move(chain));
       open_markers_.push_back(number);
       continue;
@@ -77,6 +89,8 @@ void FeatureRings::end_feature(const std::optional<std::string>& value, const st
     for (const FilePoint& vertex : chain.vertices)
       builder_.add(vertex.position, vertex.line, number);
     builder_.end_ring();
+    if (feature.number > 0)
+      std::fill(contour_.rings.back().lines.begin(), contour_.rings.back().lines.end(), feature.number);
   }
   of_feature_.clear();
   builder_.set_polygon(0);
@@ -141,7 +155,8 @@ void FeatureRings::join_lines() {
       const int index = static_cast<int>(vertices.size());
       if (k > 0)
         segments.push_back({index - 1, index, open_markers_[line], vertex.line});
-      vertices.push_back({vertex.position, vertex.line, index + 1});
+      const int feature = open_lines_[line].feature;
+      vertices.push_back({vertex.position, feature > 0 ? feature : vertex.line, index + 1});
     }
   for (const auto& ring : rings_of_segments(vertices, segments, contour_.source, contour_.warnings)) {
     for (const RingVertex& vertex : ring)

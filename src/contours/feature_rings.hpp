@@ -14,6 +14,12 @@
 
 namespace trime::contours {
 
+/// A feature of a map, as its file numbers and names it.
+struct FeatureName {
+  int number = 0; ///< from 1; 0 for a geometry that is not in a feature
+  std::string name = {};
+};
+
 /// Collects the rings of the features of a map, for all file formats.
 class FeatureRings {
 public:
@@ -33,9 +39,9 @@ public:
   void has_attribute(const std::string& name);
   /// @brief Ends the current feature, whose rings and lines get the marker of the value.
   /// @param value the value of the attribute, if the feature has it
-  /// @param label text for messages after the line number, such as " (feature 3)"
+  /// @param feature its number is higher than those of all features before
   /// @throws GeometryError for coordinates that are too large, or a ring with fewer than three distinct vertices
-  void end_feature(const std::optional<std::string>& value = {}, const std::string& label = {});
+  void end_feature(const std::optional<std::string>& value = {}, const FeatureName& feature = {});
   /// @brief Joins open lines to rings, and gives all rings their markers.
   /// @param expected what the file should contain; used in the message if it contains no vertex
   /// @throws GeometryError if lines remain open; ConfigError if no feature has the attribute
@@ -47,8 +53,10 @@ private:
     std::vector<FilePoint> vertices;
     int polygon = 0;        // 0 for lines
     std::string label = {}; // text for messages about an open line
+    int feature = 0;        // number of the feature of an open line; 0 if there is none
   };
 
+  void note_feature(const FeatureName& feature);
   int number_of(const std::optional<std::string>& value);
   void check_ends() const;
   void join_lines();

@@ -2,6 +2,7 @@
 // GeoJSON as a stream, so that every vertex knows its line and a large file is not kept as a tree.
 #include "contours/contour_text.hpp"
 #include "contours/feature_rings.hpp"
+#include "contours/map_features.hpp"
 #include "core/quoted.hpp"
 #include "trime/contours/contour.hpp"
 #include "trime/core/error.hpp"
@@ -69,15 +70,14 @@ public:
         objects_[2].key == "name")
       contour_.crs = text;
     take_attribute([&] { return text; });
-    if (is_attribute() && objects_.back().key == "name")
-      feature_name_ = text;
+    note_name([&] { return text; });
     return other_value();
   }
   bool start_object(std::size_t) {
     other_value();
     if (objects_.size() == 1 && is_feature_at(1)) {
-      ++feature_;
-      feature_name_.clear();
+      feature_ = {feature_.number + 1};
+      name_rank_ = 0;
     }
     Object object;
     object.is_property = !objects_.empty() && (objects_.back().is_property || objects_.back().key == "properties");
@@ -98,7 +98,9 @@ public:
     if (object.type == "Feature" && is_feature_at(objects_.size())) {
       for (const std::string& name : object.attributes)
         rings_.has_attribute(name);
-      rings_.end_feature(object.attribute, feature_label());
+      if (objects_.empty()) // the whole text is this feature
+        feature_.number = 1;
+      rings_.end_feature(object.attribute, feature_);
     }
     return true;
   }
@@ -162,16 +164,8 @@ private:
   };
 
   [[noreturn]] void refuse(int line, const std::string& what) const {
-    throw GeometryError(
-        fmt::format("{}:{}{}: {}", contour_.source, line, objects_.size() > 1 ? feature_label() : "", what));
-  }
-
-  /// " (feature 3, 'Sylt')" behind the line in messages; nothing outside of a list of features.
-  std::string feature_label() const {
-    if (feature_ == 0)
-      return {};
-    return feature_name_.empty() ? fmt::format(" (feature {})", feature_)
-                                 : fmt::format(" (feature {}, '{}')", feature_, trime::shown(feature_name_));
+    throw GeometryError(fmt::format("{}:{}{}: {}", contour_.source, line,
+                                    objects_.size() > 1 ? in_brackets(feature_.number, feature_.name) : "", what));
   }
 
   static std::string shown(const std::string& token) {
@@ -197,9 +191,24 @@ private:
       objects_[objects_.size() - 2].attribute = text();
   }
 
+  /// Keeps the attribute by which people recognise the feature best; of equally good ones the first.
+  template <class Text>
+  void note_name(const Text& text) {
+    const std::size_t depth = objects_.size();
+    const bool is_id = depth > 0 && objects_.back().key == "id" && objects_.back().lists == 0 &&
+                       !objects_.back().is_property && is_feature_at(depth - 1); // of the feature, next to `properties`
+    if (!is_attribute() && !is_id)
+      return;
+    if (const int rank = telling_rank(objects_.back().key); rank > name_rank_) {
+      feature_.name = text();
+      name_rank_ = rank;
+    }
+  }
+
   template <class Number>
   bool number_of(Number number) {
     take_attribute([&] { return fmt::format("{}", number); });
+    note_name([&] { return fmt::format("{}", number); });
     return value(static_cast<double>(number));
   }
 
@@ -237,8 +246,8 @@ private:
   const std::string& attribute_;
   const int& line_;
   std::vector<Object> objects_; // that are open
-  int feature_ = 0;             // number of the present one, from 1
-  std::string feature_name_;
+  FeatureName feature_;         // the present one
+  int name_rank_ = 0;           // telling_rank of the attribute with its name
 };
 
 } // namespace

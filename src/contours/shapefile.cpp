@@ -2,6 +2,7 @@
 #include "contours/contour_text.hpp"
 
 #include "contours/feature_rings.hpp"
+#include "contours/map_features.hpp"
 #include "core/read_file.hpp"
 #include "trime/core/error.hpp"
 
@@ -106,13 +107,15 @@ std::string as_utf8(const std::string& text) {
   return wide;
 }
 
-/// NAME.dbf, and in it the field of the attribute that names the boundary.
+/// NAME.dbf, and in it the fields of the attribute that names the boundary and of the one that names the feature in
+/// messages.
 class Attributes {
 public:
   Attributes(const std::string& path, const std::string& attribute, FeatureRings& rings) {
-    if (attribute.empty())
+    const bool exists = std::filesystem::exists(beside(path, ".dbf", ".DBF"));
+    if (attribute.empty() && !exists)
       return;
-    if (!std::filesystem::exists(beside(path, ".dbf", ".DBF")))
+    if (!exists)
       throw FileError(
           fmt::format("cannot open {}, which has the attributes of {}: expected both in one directory; copy "
                       "all files of the set",
@@ -120,28 +123,38 @@ public:
     const std::string file = beside(path, ".dbf", ".DBF");
     SAHooks hooks = hooks_of_libshp();
     table_.reset(DBFOpenLL(file.c_str(), "rb", &hooks));
+    if (!table_ && attribute.empty())
+      return;
     if (!table_)
       throw FileError(fmt::format("{} is damaged: expected a table of dBASE that libshp opens, found: {}", file,
                                   said().empty() ? "another file" : trimmed(said())));
-    field_ = DBFGetFieldIndex(table_.get(), attribute.c_str()); // in any case of letters
+    if (!attribute.empty())
+      field_ = DBFGetFieldIndex(table_.get(), attribute.c_str()); // in any case of letters
+    int best = 0;
     for (int k = 0; k < DBFGetFieldCount(table_.get()); ++k) {
       std::array<char, XBASE_FLDNAME_LEN_READ + 1> name{};
       DBFGetFieldInfo(table_.get(), k, name.data(), nullptr, nullptr);
       rings.has_attribute(k == field_ ? attribute : as_utf8(name.data()));
+      if (const int rank = telling_rank(name.data()); rank > best) {
+        best = rank;
+        name_field_ = k;
+      }
     }
   }
 
-  std::optional<std::string> of(int record) const {
-    if (field_ < 0 || record >= DBFGetRecordCount(table_.get()) ||
-        DBFIsAttributeNULL(table_.get(), record, field_) != 0)
+  std::optional<std::string> of(int record) const { return value(record, field_); }
+  std::string name_of(int record) const { return value(record, name_field_).value_or(std::string()); }
+
+private:
+  std::optional<std::string> value(int record, int field) const {
+    if (field < 0 || record >= DBFGetRecordCount(table_.get()) || DBFIsAttributeNULL(table_.get(), record, field) != 0)
       return {};
-    const char* text = DBFReadStringAttribute(table_.get(), record, field_);
+    const char* text = DBFReadStringAttribute(table_.get(), record, field);
     return text == nullptr ? std::optional<std::string>() : as_utf8(text);
   }
 
-private:
   Table table_;
-  int field_ = -1;
+  int field_ = -1, name_field_ = -1;
 };
 
 class ShapefileReader {
@@ -160,9 +173,11 @@ public:
         throw FileError(fmt::format("{}:{}: the record is damaged: expected {} records, found {} that can be read: {}",
                                     path_, k + 1, records, k, said().empty() ? "the file is too short" : said()));
       add(*record, k + 1);
-      rings_.end_feature(attributes_.of(k));
+      rings_.end_feature(attributes_.of(k), {k + 1, attributes_.name_of(k)});
     }
     rings_.finish("a shapefile with polygons");
+    for (MapFeature& feature : contour_.features)
+      feature.line = 0;
     return std::move(contour_);
   }
 

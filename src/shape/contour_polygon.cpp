@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shape/contour_polygon.hpp"
 
+#include "contours/map_features.hpp"
 #include "geometry/predicates.hpp"
 #include "shape/dissolve.hpp"
 #include "shape/lattice_rings.hpp"
@@ -16,8 +17,11 @@ namespace trime::shape {
 
 namespace {
 
+using contours::line_or_feature;
+using contours::where;
 using geometry::Box;
 using geometry::cross;
+using geometry::dot;
 using geometry::Frame;
 using geometry::orient2d;
 using geometry::Segment;
@@ -54,8 +58,8 @@ public:
     if (touches_.dissolve)
       unite(notes);
     for (const RepeatedRing& ring : drop_repeated(rings_))
-      warnings.push_back(fmt::format("{}:{}: the ring that starts here was given before, at line {}; it is used once{}",
-                                     contour_.source, ring.line, ring.first_line,
+      warnings.push_back(fmt::format("{}: the ring that starts here was given before, at {}; it is used once{}",
+                                     where(contour_, ring.line), line_or_feature(contour_, ring.first_line),
                                      ring.loses_markers ? ", with the names or markers that stand there" : ""));
     SegmentGrid grid(segments_of(rings_));
     const std::vector<int> markers = markers_of_segments();
@@ -89,6 +93,7 @@ private:
   void separate(const std::vector<SegmentPair>& meetings, SegmentGrid& grid, std::vector<std::string>& warnings);
   void tell_touches(const std::vector<RingTouch>& touches, double gap, std::vector<std::string>& warnings) const;
   void tell_pieces(const Polygon& polygon, std::vector<std::string>& warnings) const;
+  std::string other_edge(const std::array<int, 2>& lines) const;
   [[noreturn]] void report(const SegmentGrid& grid, const SegmentPair& pair) const;
   std::vector<int> markers_of_segments() const;
   std::string in_file(Vec2 p) const;
@@ -115,17 +120,25 @@ std::vector<int> Placement::markers_of_segments() const {
   return markers;
 }
 
-/// A place in the coordinates of the file; where these are projected, that of the nearest vertex. O(vertices)
+/// A place in the coordinates of the file; where these are projected, that of the nearest place on an edge. O(vertices)
 std::string Placement::in_file(Vec2 p) const {
+  constexpr double half_turn = 180; // an edge that is wider leads across the date line
   Vec2 original = normalization_.undo(p);
   double least = HUGE_VAL;
   for (const contours::ContourRing& ring : contour_.rings)
-    for (std::size_t k = 0; k < ring.in_file.size(); ++k)
-      if (const double d = squared_length(normalization_.apply(ring.points[k]) - p); d < least) {
-        least = d;
-        original = ring.in_file[k];
+    for (std::size_t k = 0; k < ring.in_file.size(); ++k) {
+      const std::size_t next = k + 1 == ring.in_file.size() ? 0 : k + 1;
+      const Vec2 a = normalization_.apply(ring.points[k]), d = normalization_.apply(ring.points[next]) - a;
+      const double share = squared_length(d) > 0 ? std::clamp(dot(p - a, d) / squared_length(d), 0.0, 1.0) : 0;
+      if (const double distance = squared_length(a + share * d - p); distance < least) {
+        least = distance;
+        const Vec2 along = ring.in_file[next] - ring.in_file[k];
+        const bool wraps = contour_.in_degrees && std::fabs(along.x) > half_turn;
+        original = wraps ? ring.in_file[share < 0.5 ? k : next] : ring.in_file[k] + share * along;
       }
-  return fmt::format("({:.12g}, {:.12g})", original.x, original.y);
+    }
+  return contour_.in_degrees ? fmt::format("longitude {:.10g}, latitude {:.10g}", original.x, original.y)
+                             : fmt::format("({:.12g}, {:.12g})", original.x, original.y);
 }
 
 void Placement::add_ring(const contours::ContourRing& ring, std::vector<std::string>& warnings) {
@@ -138,11 +151,11 @@ void Placement::add_ring(const contours::ContourRing& ring, std::vector<std::str
   for (std::size_t k = 0; k < ring.points.size(); ++k) {
     const Vec2 p = frame_.snap(normalization_.apply(ring.points[k]));
     if (!frame_.reach().contains(p))
-      throw GeometryError(fmt::format(
-          "{}:{}: vertex ({}, {}) lies far outside the container [{}, {}] x [{}, {}]; enlarge [domain] or set "
-          "normalize = true",
-          contour_.source, ring.lines[k], ring.points[k].x, ring.points[k].y, frame_.container().min.x,
-          frame_.container().max.x, frame_.container().min.y, frame_.container().max.y));
+      throw GeometryError(
+          fmt::format("{}: vertex ({}, {}) lies far outside the container [{}, {}] x [{}, {}]; enlarge [domain] or set "
+                      "normalize = true",
+                      where(contour_, ring.lines[k]), ring.points[k].x, ring.points[k].y, frame_.container().min.x,
+                      frame_.container().max.x, frame_.container().min.y, frame_.container().max.y));
     if (!points.empty() && points.back() == p) {
       if (marked)
         markers.back() = ring.markers[k];
@@ -156,9 +169,9 @@ void Placement::add_ring(const contours::ContourRing& ring, std::vector<std::str
   while (points.size() > 1 && points.front() == points.back())
     points.pop_back();
   if (points.size() < ring.points.size())
-    warnings.push_back(fmt::format("{}:{}: {} vertices of the ring that starts here are nearer than {:.3g} to the one "
+    warnings.push_back(fmt::format("{}: {} vertices of the ring that starts here are nearer than {:.3g} to the one "
                                    "before; they are merged",
-                                   contour_.source, ring.lines[0], ring.points.size() - points.size(),
+                                   where(contour_, ring.lines[0]), ring.points.size() - points.size(),
                                    frame_.step() / normalization_.scale));
   lines.resize(points.size());
   if (marked)
@@ -173,21 +186,22 @@ void Placement::check_turns(const std::vector<Vec2>& p, const std::vector<int>& 
   for (std::size_t k = 2; k < n && collinear; ++k)
     collinear = orient2d(p[0], p[1], p[k]) == 0;
   if (collinear)
-    throw GeometryError(fmt::format("{}:{}: the ring that starts here at {} encloses no area: all its vertices lie on "
+    throw GeometryError(fmt::format("{}: the ring that starts here at {} encloses no area: all its vertices lie on "
                                     "one line",
-                                    contour_.source, lines.empty() ? 0 : lines[0], n > 0 ? in_file(p[0]) : "nowhere"));
+                                    where(contour_, lines.empty() ? 0 : lines[0]), n > 0 ? in_file(p[0]) : "nowhere"));
   for (std::size_t k = 0; k < n; ++k) {
     const Vec2 before = p[(k + n - 1) % n], here = p[k], after = p[(k + 1) % n];
     if (orient2d(before, here, after) == 0 && dot(before - here, after - here) > 0)
-      throw GeometryError(fmt::format("{}:{}: the ring turns straight back at {}: the edges before and after this "
+      throw GeometryError(fmt::format("{}: the ring turns straight back at {}: the edges before and after this "
                                       "vertex overlap; remove the spike",
-                                      contour_.source, lines[k], in_file(here)));
+                                      where(contour_, lines[k]), in_file(here)));
   }
 }
 
 /// Replaces the rings by those around the union of all polygons.
 void Placement::unite(std::vector<std::string>& notes) {
-  Dissolved dissolved = dissolve(rings_, frame_, contour_.source);
+  Dissolved dissolved =
+      dissolve(rings_, frame_, {contour_.source, touches_.widest_gap, [this](Vec2 p) { return in_file(p); }});
   rings_ = std::move(dissolved.rings);
   const double scale = normalization_.scale;
   notes.push_back(
@@ -195,6 +209,11 @@ void Placement::unite(std::vector<std::string>& notes) {
                   "and overlap by an area of {:.4g}",
                   contour_.source, dissolved.polygons, dissolved.polygons == 1 ? " is" : "s are", rings_.size(),
                   dissolved.shared_length / scale, std::fmax(0, dissolved.overlap) / (scale * scale)));
+  if (dissolved.gaps > 0)
+    notes.push_back(fmt::format("{}: {} gap{} between polygons, narrower than {:.3g} and {:.4g} in area, {} closed",
+                                contour_.source, dissolved.gaps, dissolved.gaps == 1 ? "" : "s",
+                                touches_.widest_gap / scale, dissolved.gap_area / (scale * scale),
+                                dissolved.gaps == 1 ? "is" : "are"));
 }
 
 /// Separates rings that touch, less far where they would cross then.
@@ -221,13 +240,21 @@ void Placement::tell_touches(const std::vector<RingTouch>& touches, double gap,
   const std::size_t told = std::min(touches.size(), most_told);
   for (const RingTouch& touch : std::span(touches).first(told))
     warnings.push_back(
-        fmt::format("{}:{}: two rings touch at {} (the other one at line {}); they are moved apart by "
+        fmt::format("{}: two rings touch at {} (the other one: {}); they are moved apart by "
                     "{:.2g} there, so that no triangles meet across this point: nothing is connected there, whatever "
                     "meshing.connect says",
-                    contour_.source, touch.line, in_file(touch.place), touch.other_line, gap / normalization_.scale));
+                    where(contour_, touch.line), in_file(touch.place), line_or_feature(contour_, touch.other_line),
+                    gap / normalization_.scale));
   if (told < touches.size())
     warnings.push_back(fmt::format("{}: rings touch in {} more places and are moved apart there", contour_.source,
                                    touches.size() - told));
+}
+
+/// The second of two edges, for a message that begins with the line of the first.
+std::string Placement::other_edge(const std::array<int, 2>& lines) const {
+  if (lines[0] == lines[1])
+    return contour_.features.empty() ? "another edge" : "another edge of this feature";
+  return (contour_.features.empty() ? "the edge that starts at " : "an edge of ") + line_or_feature(contour_, lines[1]);
 }
 
 void Placement::report(const SegmentGrid& grid, const SegmentPair& pair) const {
@@ -241,21 +268,23 @@ void Placement::report(const SegmentGrid& grid, const SegmentPair& pair) const {
     line[k] = rings_[ring[k]].lines[index];
   }
   const bool same = ring[0] == ring[1], crossing = meeting_of(s, t) == Meeting::crossing;
-  const bool is_map =
-      contour_.source.ends_with(".shp") || contour_.source.ends_with("json"); // no lines, no rings of text
+  const bool is_map = contour_.is_map,
+             one_polygon = rings_[ring[0]].polygon == rings_[ring[1]].polygon && rings_[ring[0]].polygon != 0;
   const char* remedy =
-      !same && is_map    ? "polygons of a map must neither overlap nor share borders; set 'overlap = union' in the "
-                           "section of this contour to unite them"
-      : same && is_map   ? "a ring must neither cross nor touch itself; ogr2ogr -makevalid may repair it"
-      : same && crossing ? "a ring must not cross itself; is a blank line between two rings missing?"
-      : same             ? "a ring touches itself; is a blank line between two rings missing?"
-      : crossing         ? "two rings must not cross; to join areas, make each one a separate part and unite them in "
-                           "'geometry', or dissolve their common borders first, as QGIS does"
-                         : "two rings touch or overlap along an edge, or cross at a vertex; make each one a separate "
-                           "part and unite them in 'geometry', or dissolve their common borders first, as QGIS does";
-  throw GeometryError(fmt::format("{}:{}: the edge that starts here {} the edge that starts at line {} near {}; {}",
-                                  contour_.source, line[0], crossing ? "crosses" : "touches", line[1],
-                                  in_file(meeting_point(s, t)), remedy));
+      !same && one_polygon ? "rings of one polygon must not cross; ogr2ogr -makevalid may repair it"
+      : !same && is_map    ? "polygons of a map must neither overlap nor share borders; set 'overlap = union' in the "
+                             "section of this contour to unite them"
+      : same && is_map     ? "a ring must neither cross nor touch itself; ogr2ogr -makevalid may repair it"
+      : same && crossing   ? "a ring must not cross itself; is a blank line between two rings missing?"
+      : same               ? "a ring touches itself; is a blank line between two rings missing?"
+      : crossing           ? "two rings must not cross; to join areas, make each one a separate part and unite them in "
+                             "'geometry', or dissolve their common borders first, as QGIS does"
+                           : "two rings touch or overlap along an edge, or cross at a vertex; make each one a separate "
+                             "part and unite them in 'geometry', or dissolve their common borders first, as QGIS does";
+  throw GeometryError(fmt::format("{}: {} {} {} near {}; {}", where(contour_, line[0]),
+                                  contour_.features.empty() ? "the edge that starts here" : "an edge",
+                                  crossing ? "crosses" : "touches", other_edge(line), in_file(meeting_point(s, t)),
+                                  remedy));
 }
 
 /// Returns a warning for every ring that encloses a separate piece, except the one with the largest area. Maps mean
@@ -284,10 +313,9 @@ void Placement::tell_pieces(const Polygon& polygon, std::vector<std::string>& wa
   std::size_t told = 0;
   for (std::size_t k = 0; k < starts.size(); ++k)
     if (k != main && ++told <= most_told)
-      warnings.push_back(
-          fmt::format("{}:{}: the ring that starts here lies outside the area of all others and becomes a "
-                      "separate piece",
-                      contour_.source, starts[k]));
+      warnings.push_back(fmt::format("{}: the ring that starts here lies outside the area of all others and becomes a "
+                                     "separate piece",
+                                     where(contour_, starts[k])));
   if (told > most_told)
     warnings.push_back(fmt::format("{}: {} more rings become separate pieces", contour_.source, told - most_told));
 }

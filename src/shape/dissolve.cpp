@@ -3,6 +3,7 @@
 
 #include "core/angle.hpp"
 #include "geometry/box_tree.hpp"
+#include "geometry/predicates.hpp"
 #include "shape/arrangement.hpp"
 #include "shape/contour_polygon.hpp"
 #include "shape/part_images.hpp"
@@ -29,6 +30,20 @@ double area_of(std::span<const Vec2> ring) {
   for (std::size_t k = 0; k < ring.size(); ++k)
     twice += cross(ring[k] - ring[0], ring[(k + 1) % ring.size()] - ring[0]);
   return 0.5 * twice;
+}
+
+/// Does the ring contain a point that is not on it?
+bool holds(std::span<const Vec2> ring, Vec2 p) {
+  bool inside = false;
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    Vec2 a = ring[k], b = ring[(k + 1) % ring.size()];
+    if ((a.y > p.y) == (b.y > p.y))
+      continue;
+    if (a.y > b.y)
+      std::swap(a, b);
+    inside = inside != (geometry::orient2d(a, b, p) > 0);
+  }
+  return inside;
 }
 
 /// One polygon of the map as a part, with line and marker of each of its segments.
@@ -58,18 +73,21 @@ MapPolygon polygon_of(const std::vector<LatticeRing>& rings) {
 
 class Union {
 public:
-  Union(std::vector<MapPolygon> polygons, const Frame& frame, const std::string& source)
-      : polygons_(std::move(polygons)), source_(source), placed_(place()), arrangement_(placed_, frame), frame_(frame) {
-  }
+  Union(std::vector<MapPolygon> polygons, const Frame& frame, const DissolveOptions& options)
+      : polygons_(std::move(polygons)), options_(options), placed_(place()), arrangement_(placed_, frame),
+        frame_(frame) {}
 
   Dissolved make() {
+    Dissolved found;
     classify();
     link();
-    Dissolved found;
+    if (options_.widest_gap > 0)
+      close_gaps(found);
     found.polygons = polygons_.size();
     found.shared_length = shared_length_;
     for (const MapPolygon& polygon : polygons_)
       found.overlap += polygon.area;
+    found.overlap += found.gap_area;
     std::vector<bool> used(kept_.size(), false);
     for (std::size_t first = 0; first < kept_.size(); ++first)
       if (!used[first])
@@ -87,6 +105,13 @@ private:
     int polygon;
   };
 
+  /// A hole of the union, as a ring of kept pieces.
+  struct Gap {
+    std::vector<std::size_t> pieces;
+    std::vector<Vec2> ring;
+    double area;
+  };
+
   std::vector<PlacedPart> place() const {
     std::vector<PlacedPart> placed;
     for (const MapPolygon& polygon : polygons_)
@@ -98,11 +123,18 @@ private:
   void classify();
   void keep(const Arrangement::Piece& piece, std::size_t left, std::size_t right);
   void link();
-  std::size_t next_of(std::size_t k) const;
+  /// Which of the pieces that depart from the end of a piece follows it.
+  enum class Side {
+    inner, ///< the next one around the union: both bound one sector of the union
+    outer, ///< the next one around what lies outside
+  };
+  std::size_t next_of(std::size_t k, Side side) const;
+  std::vector<Gap> gaps() const;
+  void close_gaps(Dissolved& found);
   LatticeRing ring_from(std::size_t first, std::vector<bool>& used) const;
 
   const std::vector<MapPolygon> polygons_;
-  const std::string& source_;
+  const DissolveOptions& options_;
   const std::vector<PlacedPart> placed_;
   const Arrangement arrangement_;
   const Frame& frame_;
@@ -151,6 +183,7 @@ void Union::keep(const Arrangement::Piece& piece, std::size_t left, std::size_t 
 }
 
 void Union::link() {
+  departing_.clear();
   std::vector<int> balance(static_cast<std::size_t>(arrangement_.vertices().size()), 0);
   for (std::size_t k = 0; k < kept_.size(); ++k) {
     departing_.push_back(k);
@@ -165,12 +198,12 @@ void Union::link() {
     throw GeometryError(fmt::format(
         "{}: borders of polygons nearly coincide at {}: they are nearer than about {:.2g} to each other but not equal; "
         "make them equal, or move them apart",
-        source_, Place(point(static_cast<LocalIndex>(wrong - balance.begin())), 12),
+        options_.source, options_.in_file(point(static_cast<LocalIndex>(wrong - balance.begin()))),
         VertexTable::merge_steps * frame_.step()));
 }
 
-/// The piece that bounds the same sector of the union: the first one clockwise from the piece that arrives.
-std::size_t Union::next_of(std::size_t k) const {
+/// The first piece clockwise (inner) or counter-clockwise (outer) from the piece that arrives.
+std::size_t Union::next_of(std::size_t k, Side side) const {
   const LocalIndex vertex = kept_[k].to;
   const auto [first, last] =
       std::equal_range(departing_.begin(), departing_.end(), vertex, [this](const auto& a, const auto& b) {
@@ -187,18 +220,75 @@ std::size_t Union::next_of(std::size_t k) const {
   double least = 2 * pi;
   for (auto found = first; found != last; ++found) {
     const Vec2 d = point(kept_[*found].to) - point(vertex);
-    const double turn = angle_of(cross(d, back), dot(d, back)), clockwise = turn > 0 ? turn : turn + 2 * pi;
-    if (clockwise < least) {
-      least = clockwise;
+    const double turn = angle_of(cross(d, back), dot(d, back)), clockwise = turn > 0 ? turn : turn + 2 * pi,
+                 angle = side == Side::inner ? clockwise : 2 * pi - clockwise;
+    if (angle < least) {
+      least = angle;
       best = *found;
     }
   }
   return best;
 }
 
+/// Holes of the union between two or more polygons that are narrow and have nothing inside.
+std::vector<Union::Gap> Union::gaps() const {
+  std::vector<Gap> narrow;
+  std::vector<geometry::Box> boxes;
+  std::vector<Vec2> islands; // a vertex of each ring around a component of the union
+  std::vector<bool> used(kept_.size(), false);
+  for (std::size_t first = 0; first < kept_.size(); ++first) {
+    Gap gap;
+    double around = 0;
+    bool of_one = true;
+    for (std::size_t k = first; !used[k]; k = next_of(k, Side::outer)) {
+      used[k] = true;
+      gap.pieces.push_back(k);
+      gap.ring.push_back(point(kept_[k].from));
+      around += length(point(kept_[k].to) - point(kept_[k].from));
+      of_one = of_one && kept_[k].polygon == kept_[first].polygon;
+    }
+    gap.area = gap.ring.empty() ? 0 : -area_of(gap.ring);
+    if (gap.area < 0)
+      islands.push_back(gap.ring[0]);
+    else if (gap.area > 0 && !of_one && 2 * gap.area < options_.widest_gap * around) {
+      boxes.push_back(geometry::Box());
+      for (const Vec2 p : gap.ring)
+        boxes.back().include(p);
+      narrow.push_back(std::move(gap));
+    }
+  }
+  const geometry::BoxTree tree(boxes);
+  for (const Vec2 island : islands)
+    tree.for_each_meeting({island, island}, [&](std::size_t k) {
+      if (holds(narrow[k].ring, island))
+        narrow[k].pieces.clear();
+    });
+  std::erase_if(narrow, [](const Gap& gap) { return gap.pieces.empty(); });
+  return narrow;
+}
+
+void Union::close_gaps(Dissolved& found) {
+  const std::vector<Gap> closed = gaps();
+  if (closed.empty())
+    return;
+  std::vector<bool> gone(kept_.size(), false);
+  for (const Gap& gap : closed) {
+    ++found.gaps;
+    found.gap_area += gap.area;
+    for (const std::size_t k : gap.pieces)
+      gone[k] = true;
+  }
+  std::vector<Kept> left;
+  for (std::size_t k = 0; k < kept_.size(); ++k)
+    if (!gone[k])
+      left.push_back(kept_[k]);
+  kept_ = std::move(left);
+  link();
+}
+
 LatticeRing Union::ring_from(std::size_t first, std::vector<bool>& used) const {
   LatticeRing ring;
-  for (std::size_t k = first; !used[k]; k = next_of(k)) {
+  for (std::size_t k = first; !used[k]; k = next_of(k, Side::inner)) {
     used[k] = true;
     const Vec2 a = point(kept_[k].from), b = point(kept_[k].to);
     const MapPolygon& polygon = polygons_[static_cast<std::size_t>(kept_[k].polygon)];
@@ -212,14 +302,14 @@ LatticeRing Union::ring_from(std::size_t first, std::vector<bool>& used) const {
 
 } // namespace
 
-Dissolved dissolve(const std::vector<LatticeRing>& rings, const Frame& frame, const std::string& source) {
+Dissolved dissolve(const std::vector<LatticeRing>& rings, const Frame& frame, const DissolveOptions& options) {
   std::map<int, std::vector<LatticeRing>> by_polygon;
   for (const LatticeRing& ring : rings)
     by_polygon[ring.polygon].push_back(ring);
   std::vector<MapPolygon> polygons;
   for (const auto& [number, its_rings] : by_polygon)
     polygons.push_back(polygon_of(its_rings));
-  return Union(std::move(polygons), frame, source).make();
+  return Union(std::move(polygons), frame, options).make();
 }
 
 } // namespace trime::shape

@@ -63,6 +63,7 @@ void split_edges(std::vector<LatticeRing>& rings, const std::vector<SegmentPair>
   auto next = splits.begin();
   for (LocalIndex edge = 0; LatticeRing & ring : rings) {
     LatticeRing whole;
+    whole.polygon = ring.polygon;
     for (std::size_t k = 0; k < ring.points.size(); ++k, ++edge) {
       whole.points.push_back(ring.points[k]);
       whole.lines.push_back(ring.lines[k]);
@@ -91,6 +92,7 @@ public:
         places_.push_back(ring.points[at(k)]);
         lines_.push_back(ring.lines[at(k)]);
         ring_.push_back(r);
+        polygons_.push_back(ring.polygon);
         ends_.push_back({2 * (first + (k + n - 1) % n) + 1, 2 * (first + k)});
       }
       first += n;
@@ -126,8 +128,8 @@ private:
   const SegmentGrid& grid_; ///< of the rings as they are in the web
   const Frame& frame_;
   const TouchOptions& options_;
-  std::vector<Vec2> places_, before_; ///< of each vertex, now and at first
-  std::vector<int> lines_;
+  std::vector<Vec2> places_, before_;           ///< of each vertex, now and at first
+  std::vector<int> lines_, polygons_;           ///< of each vertex
   std::vector<std::size_t> ring_;               ///< of each vertex, as given
   std::vector<std::array<LocalIndex, 2>> ends_; ///< of each vertex
   std::vector<LocalIndex> vertex_;              ///< of each end
@@ -186,7 +188,8 @@ bool Web::area_on_left(const Arm& arm, Vec2 place) const {
 
 /// @brief If possible, the vertex moves to where no disc over an arm of another sector holds it, and no disc over its
 /// arms holds the place. That is a direction at least 90 degrees from the former arms and at most 90 degrees from the
-/// latter.
+/// latter. In a reflex sector a direction must lie to the left of the first arm and to the right of the second; from
+/// elsewhere the edges would cross all other arms.
 Web::Sector Web::sector(const std::vector<Arm>& arms, std::size_t first, Vec2 place) const {
   const std::size_t second = (first + 1) % arms.size();
   const auto direction_of = [&](std::size_t k) { return unit(arms[k].toward - place); };
@@ -197,6 +200,8 @@ Web::Sector Web::sector(const std::vector<Arm>& arms, std::size_t first, Vec2 pl
   Vec2 best = middle;
   for (const double share : ShapeRules::tried_directions) { // from the middle of the sector towards its arms
     const Vec2 d = unit(middle + std::fabs(share) * ((share < 0 ? w : u) - middle));
+    if (share != 0 && (cross(u, d) <= 0 || cross(d, w) <= 0))
+      continue;
     double worst = std::fmax(-dot(d, u), -dot(d, w));
     for (std::size_t k = 0; k < arms.size(); ++k)
       if (k != first && k != second)
@@ -266,6 +271,7 @@ std::vector<LatticeRing> Web::rings() const {
     if (used[first])
       continue;
     LatticeRing ring;
+    ring.polygon = polygons_[first];
     auto end = static_cast<LocalIndex>(2 * first);
     while (!used[at(end / 2)]) {
       used[at(end / 2)] = true;

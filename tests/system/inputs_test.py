@@ -6,6 +6,7 @@ The program reads dirty files of every format, or refuses them with file and lin
 segments and attributes of maps reach the edges of the mesh. A coast in longitude and latitude is meshed in a plane and
 written back, and GDAL finds it at the right place.
 """
+import collections
 import concurrent.futures
 import json
 import math
@@ -15,10 +16,12 @@ import unittest
 
 import h5py
 import numpy
+import scipy.spatial
 from osgeo import osr
 
 from dirty_inputs import FILE, GEOMETRY, HOLE, HOLED, POLY, READ, REFUSED, SQUARE, USAGE, geojson, xy
 from rough_coast import rough_coast
+from tiled_country import Country, as_geojson, name_of
 from trime_run import Workspace, run
 
 osr.UseExceptions()
@@ -315,7 +318,8 @@ class Maps(unittest.TestCase):
             found, done = self.mesh(work, "coast.geojson", *auto, "output.formats=vtkhdf xdmf geojson", ranks=3)
             self.assertEqual(hashes, {found})
             self.assertRegex(done.stdout, r"projection: \+proj=stere \+lat_0=60\.\d+ \+lon_0=[45]")
-            self.assertRegex(done.stdout, r"worst triangle at .* \[.*coast\.geojson:\d+: \([456]\.\d+, 6[01]\.\d+\)\]")
+            self.assertRegex(done.stdout, r"worst triangle at .* \[.*coast\.geojson:\d+: "
+                                          r"longitude [456]\.\d+, latitude 6[01]\.\d+\]")
             with h5py.File(work / "case.h5") as file:
                 self.assertTrue(file["trime_mpi"].attrs["crs"].startswith(b"+proj=stere"))
                 self.assertIn("Stereographic", file["trime_mpi/crs_wkt"][()].decode())
@@ -376,6 +380,8 @@ class Maps(unittest.TestCase):
                     done = run(work / "case.ini", "--validate")
                     self.assertEqual(done.returncode, 3)
                     self.assertIn("set 'overlap = union'", done.stderr)
+                    self.assertRegex(done.stderr, r"geojson \(feature \d+, '\w+'\): an edge (crosses|touches) an edge "
+                                                  r"of feature \d+, '\w+' near \(")
                 done = run(work / "case.ini", "shape.land.overlap=union", "meshing.keep_features=true",
                            f"output.directory={work}", "output.overwrite=true", "--verbose")
                 self.assertEqual(done.returncode, 0, done.stderr)
@@ -387,6 +393,56 @@ class Maps(unittest.TestCase):
                 made = ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]).sum() / 2
                 if pieces != 2:  # polygons that touch are separated by strips that the mesh does not cover
                     self.assertAlmostEqual(made, area, delta=1e-6 * area)
+
+    def test_districts_that_tile_a_country(self):
+        """500 districts with the same vertices along common borders, and 200 with gaps and overlaps of 0.1 m."""
+        plan = ["shape.projection=auto", "shape.land.overlap=union", "output.formats=vtkhdf xdmf",
+                "meshing.simplify_within=0"]  # corners are vertices of the map
+        with Workspace() as work:
+            for districts, apart, gaps in ((500, 0, 0), (200, 1e-6, 1000)):
+                country = Country(5, districts, apart)
+                (work / "map.geojson").write_text(as_geojson(country))
+                shapefile(work / "map.shp", (work / "map.geojson").read_text())
+                found = set()
+                for name, ranks in (("map.geojson", 2), ("map.shp", 1)):
+                    (work / "case.ini").write_text(CONFIG.format(f"{name}\nattribute = name", 8000))
+                    done = run(work / "case.ini", *plan, f"output.directory={work}", "output.overwrite=true",
+                               "--verbose", ranks=ranks)
+                    self.assertEqual(done.returncode, 0, done.stderr)
+                    self.assertNotIn("touch", done.stdout)
+                    self.assertIn(f"{districts} polygons are united into an outline of ", done.stdout)
+                    closed = re.search(r": (\d+) gaps between polygons, narrower .* in area, are closed", done.stdout)
+                    self.assertGreaterEqual(int(closed[1]) if closed else 0, gaps)
+                    with h5py.File(work / "case.h5") as file:
+                        found.add(int(file["trime_mpi"].attrs["mesh_hash"]))
+                        points, triangles = file["Mesh/mesh/geometry"][:], file["Mesh/mesh/topology"][:]
+                        ends, parts = file["Mesh/facets/topology"][:], file["Mesh/facets/parts"][:]
+                        is_corner = file["VTKHDF/PointData/fixed"][:] == 1
+                        of_shape = file["trime_mpi/rings/area"][:].sum()  # an outline without holes
+                        names = [one.decode() for one in file["trime_mpi/tags/part_name"]]
+                self.assertEqual(len(found), 1)
+                a, b, c = (points[triangles[:, k]] for k in range(3))
+                made = ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]).sum() / 2
+                plane = re.search(r"projection: (.*)", done.stdout)[1]
+                given = sum(area_in_plane(ring, plane, pieces=1) for ring in country.rings)
+                self.assertAlmostEqual(of_shape / given, 1, delta=1e-6)
+                self.assertAlmostEqual(made / given, 1, delta=5e-3)  # an edge of the mesh is longer than capes and bays
+                done = run("convert", work / "case.h5", work / "case.2dm", "--degrees", "--overwrite")
+                self.assertEqual(done.returncode, 0, done.stderr)
+                places = numpy.array([line.split()[2:4] for line in (work / "case.2dm").read_text().splitlines()
+                                      if line.startswith("ND ")], dtype=float)
+                vertices = scipy.spatial.KDTree(numpy.concatenate(country.rings))
+                self.assertGreater(is_corner.sum(), 50)
+                back = vertices.query(places[is_corner])[0] < 1e-9
+                self.assertEqual(back.sum(), len(back)) if apart == 0 else self.assertGreater(back.mean(), 0.98)
+                owners = collections.defaultdict(set)  # names of the districts at each place
+                for k, ring in enumerate(country.rings):
+                    for place in ring:
+                        owners[tuple(place)].add(f"land.{name_of(k)}")
+                right = [names[part] in owners[tuple(numpy.round(places[pair[0]], 7))]
+                         for pair, part in zip(ends, parts) if is_corner[pair[0]]]
+                self.assertEqual(set(names[part] for part in parts), {f"land.{name_of(k)}" for k in range(7)})
+                self.assertGreaterEqual(numpy.mean(right), 1 if apart == 0 else 0.98)
 
     def test_long_edges_are_straight_in_degrees(self):
         box = [[-13, 76], [13, 76], [13, 78], [-13, 78], [-13, 76]]

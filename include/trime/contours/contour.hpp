@@ -15,12 +15,19 @@ namespace trime::contours {
 /// One closed ring: the last vertex is joined to the first, which is not repeated. A ring may have either orientation.
 struct ContourRing {
   std::vector<geometry::Vec2> points;
-  std::vector<int> lines; ///< line of each vertex in the file, from 1; for a shapefile, the number of its record
+  /// Line of each vertex in the file, from 1; for a map with features, the number of its feature, from 1.
+  std::vector<int> lines;
   /// Marker of the edge from each vertex to the next, as in the file; 0 means no marker. Empty: all markers are 0.
   std::vector<int> markers{};
   /// The vertices as they are in the file, if `points` are their projection; otherwise empty.
   std::vector<geometry::Vec2> in_file{};
   int polygon = 0; ///< number of the polygon of a map to which the ring belongs, from 1; 0 for lines and other files
+};
+
+/// A feature of a map, for messages.
+struct MapFeature {
+  int line = 0;     ///< line of its first vertex in the file; 0 for files without lines
+  std::string name; ///< value of its attribute `name`, or of another one by which people recognise it; may be empty
 };
 
 /// Rings in the coordinates of their file, unless they are projected. A ring is a hole if it lies inside of an odd
@@ -31,9 +38,11 @@ struct Contour {
   std::vector<std::string> warnings; ///< warnings for the user, one sentence each
   /// Names of the markers 1, 2, ...; empty: markers have no names.
   std::vector<std::string> marker_names{};
+  std::vector<MapFeature> features{}; ///< features of a map, in the order of the file; empty: the file has no features
   std::string crs{}; ///< name of the reference system of the coordinates, as in the file; empty: unknown
   bool is_map =
       false; ///< true if the rings come from a map: there may be several polygons, and coordinates may be degrees
+  bool in_degrees = false; ///< true if ContourRing::in_file holds longitudes and latitudes
 };
 
 /// @brief Reads the rings of a file. The ending of its name decides the format: `.poly` (Triangle), `.shp` (ESRI),

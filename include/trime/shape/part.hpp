@@ -49,6 +49,7 @@ struct TouchOptions {
   bool dissolve = false; ///< polygons of the contour that overlap or share borders are united
   double gap = 0; ///< distance between the separated vertices, if the rings leave room for it; at least 1e-12 of the
                   ///< container
+  double widest_gap = 0; ///< with `dissolve`: gaps that polygons enclose between them are closed if they are narrower
 };
 
 /// One named part of a shape. Immutable.

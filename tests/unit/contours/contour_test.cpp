@@ -134,6 +134,8 @@ TEST(Contour, RingsThatTouchAreParted) {
   expect_parted("0.5 0.5\n0.9 0.4\n0.9 0.6\n\n0.5 0.5\n0.6 0.9\n0.4 0.9\n\n0.5 0.5\n0.1 0.6\n0.1 0.4\n\n"
                 "0.5 0.5\n0.4 0.1\n0.6 0.1\n",
                 0.16, 4, 0, 1);
+  // Narrow gaps at one place: directions into a reflex sector may lead across the other gap.
+  expect_parted(square + "\n0.5 0.2\n0.3 0.6\n0.299 0.6\n\n0.5 0.2\n0.801 0.8\n0.8 0.8\n", 0.6395, 1, 1, 1);
   // A vertex that snapping leaves beside the slanted edge it is meant to lie on.
   expect_parted("0.1 0.1\n0.8 0.2\n0.1 0.9\n\n0.3 0.12857142857142856\n0.3 0.3\n0.2 0.3\n", 0.28 - 0.0085714286, 1, 0,
                 1);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // GeoJSON as maps have it: rings with their lines, and what a user reads when it is something else.
 #include "contours/feature_rings.hpp"
+#include "contours/map_features.hpp"
 #include "trime/contours/contour.hpp"
 #include "trime/core/error.hpp"
 #include "unit/shape/boundary_checks.hpp"
@@ -40,12 +41,58 @@ TEST(GeoJson, ReadsAllRingsOfACollectionWithTheirLines) {
   const Contour contour = parse_geojson(feature_collection, "a.geojson");
   ASSERT_EQ(contour.rings.size(), 4u);
   EXPECT_EQ(contour.rings[0].points, (std::vector<Vec2>{{0, 0}, {8, 0}, {8, 8}, {0, 8}}));
-  EXPECT_EQ(contour.rings[0].lines, (std::vector<int>{4, 4, 5, 5}));
+  EXPECT_EQ(contour.rings[0].lines, (std::vector<int>{1, 1, 1, 1})); // numbers of features
   EXPECT_EQ(contour.rings[1].points, (std::vector<Vec2>{{2, 2}, {2, 4}, {4, 4}}));
-  EXPECT_EQ(contour.rings[1].lines, (std::vector<int>{7, 7, 7}));
+  EXPECT_EQ(contour.rings[1].lines, (std::vector<int>{1, 1, 1}));
   EXPECT_EQ(contour.rings[2].points, (std::vector<Vec2>{{10, 0}, {12, 0}, {12, 1}}));
   EXPECT_EQ(contour.rings[3].points, (std::vector<Vec2>{{20, 0}, {21, 0}, {21, 1}})); // not closed, and still a polygon
+  EXPECT_EQ(contour.rings[3].lines, (std::vector<int>{2, 2, 2}));
+  ASSERT_EQ(contour.features.size(), 2u);
+  EXPECT_EQ(where(contour, 1), "a.geojson:4 (feature 1, 'main')");
+  EXPECT_EQ(where(contour, 2), "a.geojson:9 (feature 2)");
+  EXPECT_EQ(line_or_feature(contour, 1), "feature 1, 'main'");
   EXPECT_TRUE(contour.warnings.empty());
+}
+
+TEST(GeoJson, FeaturesAreNamedByTheMostTellingAttribute) {
+  const auto named = [](const std::string& feature) {
+    const Contour contour =
+        parse_geojson(R"({"features": [{"type": "Feature", )" + feature +
+                          R"(, "geometry": {"type": "Polygon", "coordinates": [[[0, 0], [8, 0], [8, 8]]]}}]})",
+                      "a.geojson");
+    return where(contour, 1);
+  };
+  EXPECT_EQ(named(R"("properties": {"kind": "x", "NAME_1": "Fyn", "name_en": "Funen", "id": 3})"),
+            "a.geojson (feature 1, 'Fyn')");
+  EXPECT_EQ(named(R"("properties": {"id": 3, "Name": "Als", "NAME_1": "Fyn"})"), "a.geojson (feature 1, 'Als')");
+  EXPECT_EQ(named(R"("id": "way/17", "properties": {"area": 4.5})"), "a.geojson (feature 1, 'way/17')");
+  EXPECT_EQ(named(R"("properties": {"osm_id": 4711, "tags": {"name": "no"}})"), "a.geojson (feature 1, '4711')");
+  EXPECT_EQ(named(R"("properties": {"kind": "x"})"), "a.geojson (feature 1)");
+}
+
+TEST(GeoJson, EdgesThatCrossAreThoseOfFeatures) {
+  const std::string map = R"({"type": "FeatureCollection", "features": [
+    {"type": "Feature", "properties": {"name": "Als"}, "geometry": {"type": "Polygon", "coordinates":
+     [[[0, 0], [0.5, 0], [0.5, 0.5], [0, 0.5]]]}},
+    {"type": "Feature", "properties": {}, "geometry": {"type": "Polygon", "coordinates":
+     [[[0.4, 0.1], [0.6, 0.1], [0.6, 0.2]]]}}]})";
+  const Frame frame({{0, 0}, {1, 1}});
+  Contour contour = parse_geojson(map, "a.geojson");
+  const auto refused = [&] {
+    return message_of<GeometryError>([&] { Part::contour("land", contour, Normalization(), frame); });
+  };
+  EXPECT_EQ(refused().find("a.geojson:3 (feature 1, 'Als'): an edge crosses an edge of feature 2 near (0.5, 0.1); "),
+            0u)
+      << refused();
+  contour.rings[1].polygon = contour.rings[0].polygon;
+  EXPECT_NE(refused().find("rings of one polygon must not cross; ogr2ogr -makevalid"), std::string::npos) << refused();
+  for (ContourRing& ring : contour.rings) { // as a projection does it
+    ring.in_file = ring.points;
+    for (Vec2& p : ring.in_file)
+      p = {10 * p.x, 50 + p.y};
+  }
+  contour.in_degrees = true;
+  EXPECT_NE(refused().find(" near longitude 5, latitude 50.1;"), std::string::npos) << refused();
 }
 
 TEST(GeoJson, ErrorsNameTheFeatureAndItsName) {
