@@ -2,6 +2,8 @@
 #include "app/shape_builder.hpp"
 
 #include "comm/agree.hpp"
+#include "contours/faults.hpp"
+#include "contours/ring_repair.hpp"
 #include "core/read_file.hpp"
 #include "fitting/points_of_length.hpp"
 #include "trime/shape/region_shape.hpp"
@@ -45,6 +47,10 @@ RunOptions with_used_parts(const RunOptions& options) {
   return used;
 }
 
+contours::Faults faults_of(const PartOptions& part) {
+  return part.repair ? contours::Faults::repair : contours::Faults::collect;
+}
+
 /// The rings of parts that are contours, by part, projected. Rank 0 reads. Collective.
 std::vector<contours::Contour> read_contours(const RunOptions& options, const comm::Communicator& comm, Log& log,
                                              MapSystem& map) {
@@ -54,12 +60,18 @@ std::vector<contours::Contour> read_contours(const RunOptions& options, const co
       return;
     for (std::size_t k = 0; k < contours.size(); ++k)
       if (const PartOptions& part = options.parts[k]; part.type == "contour")
-        contours[k] = contours::read_contour(part.file, hint_of(part.file_is_relative), part.attribute);
+        contours[k] =
+            contours::read_contour(part.file, hint_of(part.file_is_relative), part.attribute, faults_of(part));
     for (std::size_t k = 0; k < contours.size(); ++k)
       if (options.parts[k].dissolve && !contours[k].is_map)
         throw ConfigError(fmt::format("{}: 'overlap = union' in [shape.{}] unites the polygons of a map; expected a "
                                       ".geojson or .shp, found a file of another type",
                                       contours[k].source, options.parts[k].name));
+    for (std::size_t k = 0; k < contours.size(); ++k)
+      if (options.parts[k].repair) {
+        contours::repair_rings(contours[k]);
+        contours::check_reading(contours[k], contours::Faults::repair, "rings with an area");
+      }
     map = project_contours(options, contours, log);
   });
   if (comm.size() > 1)
@@ -164,8 +176,9 @@ ShapeInput read_shape(const RunOptions& given, ShapeUse use, const comm::Communi
     contours::Normalization place;
     if (part.normalize)
       place = contours::fit_to_container(contours[k], frame.container());
-    parts.push_back(build_part(part, contours[k], place, frame,
-                               {region.subtracts(static_cast<int>(k)), part.dissolve, touch_gap(options, container)}));
+    parts.push_back(build_part(
+        part, contours[k], place, frame,
+        {region.subtracts(static_cast<int>(k)), part.dissolve, touch_gap(options, container), faults_of(part)}));
     if (part.type == "contour" && comm.is_root())
       found.add(contours[k], place);
     contours[k] = {};

@@ -151,7 +151,7 @@ public:
     contour_.source = path;
   }
 
-  Contour read() {
+  Contour read(Faults faults) {
     int records = 0, type = 0;
     SHPGetInfo(file_.get(), &records, &type, nullptr, nullptr);
     for (int k = 0; k < records; ++k) {
@@ -162,7 +162,7 @@ public:
       add(*record, k + 1);
       rings_.end_feature(attributes_.of(k));
     }
-    rings_.finish("a shapefile with polygons");
+    rings_.finish("a shapefile with polygons", faults);
     return std::move(contour_);
   }
 
@@ -200,9 +200,9 @@ private:
 
 } // namespace
 
-Contour read_shapefile(const std::string& path, const std::string& hint, const std::string& attribute) {
+Contour read_shapefile(const std::string& path, const std::string& hint, const std::string& attribute, Faults faults) {
   const std::string bytes = read_file(path, hint); // the reason of the system if it cannot be opened
-  Contour contour = ShapefileReader(path, bytes, attribute).read();
+  Contour contour = ShapefileReader(path, bytes, attribute).read(faults);
   if (const std::string prj = beside(path, ".prj", ".PRJ"); std::filesystem::exists(prj))
     contour.crs = std::string(trimmed(read_file(prj)));
   return contour;
