@@ -107,6 +107,7 @@ PartOptions part_of(const Settings& settings, const std::string& name, const fs:
     if (const std::string attribute = settings.text(section, "attribute"); attribute != "none")
       part.attribute = attribute;
     part.dissolve = settings.text(section, "overlap") == "union";
+    part.repair = settings.boolean(section, "repair");
     part.normalize = settings.boolean(section, "normalize");
   } else if (part.type == "expression") {
     part.sdf = settings.text(section, "sdf");

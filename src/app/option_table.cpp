@@ -134,6 +134,15 @@ const Option table[] = {
      .meaning = "polygons of a `.geojson` or `.shp` that overlap, lie in each other or share borders: `error` refuses "
                 "them, `union` unites them"},
     {.section = "shape.NAME",
+     .key = "repair",
+     .part_type = "contour",
+     .kind = OptionKind::boolean,
+     .fallback = "false",
+     .meaning = "true: what has no area is left out of the contour, with a warning for each of the first ten such "
+                "places: rings of fewer than three different vertices, spikes, two edges that cancel each other, open "
+                "lines of a map, a third column of numbers; false: the file is refused, and the message lists all "
+                "faults"},
+    {.section = "shape.NAME",
      .key = "normalize",
      .part_type = "contour",
      .kind = OptionKind::boolean,

@@ -32,6 +32,7 @@ struct PartOptions {
   bool file_is_relative = false; ///< true if the user gave the path relative to the config file
   std::string attribute;         ///< attribute of map features that names the boundary; empty: no attribute
   bool dissolve = false;         ///< polygons of a map that overlap or share borders are united
+  bool repair = false;           ///< what has no area is left out of the contour
   bool normalize = false;
   std::string sdf; ///< formula of x and y
 };

@@ -2,6 +2,8 @@
 #include "app/shape_builder.hpp"
 
 #include "comm/agree.hpp"
+#include "contours/faults.hpp"
+#include "contours/ring_repair.hpp"
 #include "core/read_file.hpp"
 #include "fitting/points_of_length.hpp"
 #include "trime/shape/region_shape.hpp"
@@ -48,6 +50,10 @@ RunOptions with_used_parts(const RunOptions& options) {
   return used;
 }
 
+contours::Faults faults_of(const PartOptions& part) {
+  return part.repair ? contours::Faults::repair : contours::Faults::collect;
+}
+
 /// The rings of parts that are contours, by part, projected. Rank 0 reads. Collective.
 std::vector<contours::Contour> read_contours(const RunOptions& options, const comm::Communicator& comm, Log& log,
                                              MapSystem& map) {
@@ -57,12 +63,18 @@ std::vector<contours::Contour> read_contours(const RunOptions& options, const co
       return;
     for (std::size_t k = 0; k < contours.size(); ++k)
       if (const PartOptions& part = options.parts[k]; part.type == "contour")
-        contours[k] = contours::read_contour(part.file, hint_of(part.file_is_relative), part.attribute);
+        contours[k] =
+            contours::read_contour(part.file, hint_of(part.file_is_relative), part.attribute, faults_of(part));
     for (std::size_t k = 0; k < contours.size(); ++k)
       if (options.parts[k].dissolve && !contours[k].is_map)
         throw ConfigError(fmt::format("{}: 'overlap = union' in [shape.{}] unites the polygons of a map; expected a "
                                       ".geojson or .shp, found a file of another type",
                                       contours[k].source, options.parts[k].name));
+    for (std::size_t k = 0; k < contours.size(); ++k)
+      if (options.parts[k].repair) {
+        contours::repair_rings(contours[k]);
+        contours::check_reading(contours[k], contours::Faults::repair, "rings with an area");
+      }
     map = project_contours(options, contours, log);
   });
   if (comm.size() > 1)
@@ -111,7 +123,8 @@ shape::TouchOptions touch_options(const RunOptions& options, const PartOptions& 
   const double h = options.mesh.edge_length.value_or(fitting::estimated_size(
       container.width() * container.height(), 0, static_cast<double>(options.mesh.points.value_or(1000))));
   const bool keeps_all = features.keep_all || !(features.within > 0); // nothing widens a gap later
-  return {outside, part.dissolve, keeps_all ? kept_gap * h : 0, features.keep_all ? 0 : closed_gap * h};
+  return {outside, part.dissolve, keeps_all ? kept_gap * h : 0, faults_of(part),
+          features.keep_all ? 0 : closed_gap * h};
 }
 
 /// @param contour of a part that is one @param place what its vertices undergo

@@ -3,6 +3,7 @@
 
 #include "contours/airfoil.hpp"
 #include "contours/contour_text.hpp"
+#include "contours/faults.hpp"
 #include "contours/rules.hpp"
 #include "contours/segment_rings.hpp"
 #include "core/read_file.hpp"
@@ -20,7 +21,73 @@ namespace trime::contours {
 using geometry::Box;
 using geometry::Vec2;
 
-Contour parse_xy(std::string_view text, const std::string& source) {
+namespace {
+
+/// Third numbers of lines, which many programs write for heights.
+class ThirdNumbers {
+public:
+  std::optional<Vec2> read(std::string_view line, int number) {
+    const std::optional<Vec2> p = first_two_of_three(line);
+    if (p && ++with_third_ == 1) {
+      first_ = number;
+      text_ = line.substr(0, most_shown);
+    }
+    return p;
+  }
+  /// Counts a line with another number of numbers.
+  void count_other() { ++others_; }
+  void finish(FaultList& faults, const std::string& source) const {
+    if (with_third_ == 0)
+      return;
+    const bool is_column = others_ == 0;
+    add_fault(faults, is_column ? HasArea::no : HasArea::yes, [&]() -> Fault {
+      return {fmt::format("{}:{}", source, first_),
+              fmt::format("expected two numbers 'x y', found '{}'{}", text_,
+                          with_third_ > 1
+                              ? fmt::format(", and three numbers in {} of {} lines", with_third_, with_third_ + others_)
+                              : ""),
+              is_column ? "points in the plane have two numbers: remove the third column"
+                        : "points in the plane have two numbers, and not all lines have a third one: correct them",
+              is_column ? "the third column is ignored" : ""};
+    });
+  }
+
+private:
+  static constexpr std::size_t most_shown = 60; // characters of a line
+
+  int others_ = 0, with_third_ = 0, first_ = 0;
+  std::string text_;
+};
+
+/// Reads the rings of lines 'x y'.
+void read_lines(std::string_view text, Contour& contour, RingBuilder& builder) {
+  VertexReader reader(contour.source);
+  ThirdNumbers third;
+  for_each_line(text, [&](std::string_view content, int number, bool parts_rings) {
+    if (parts_rings)
+      return builder.end_ring();
+    if (content.empty())
+      return;
+    if (const std::optional<Vec2> vertex = third.read(content, number))
+      return builder.add(*vertex, number);
+    const std::uint64_t before = contour.faults.others;
+    const std::optional<Vec2> vertex = reader.read(content, number, contour.faults);
+    const bool is_fault = contour.faults.others > before;
+    if (vertex)
+      builder.add(*vertex, number);
+    if (is_fault)
+      builder.spoil();
+    if (vertex || is_fault)
+      third.count_other();
+  });
+  third.finish(contour.faults, contour.source);
+  builder.finish();
+  contour.warnings.insert(contour.warnings.begin(), reader.warnings().begin(), reader.warnings().end());
+}
+
+} // namespace
+
+Contour parse_xy(std::string_view text, const std::string& source, Faults faults) {
   check_encoding(text, source);
   Contour contour;
   contour.source = source;
@@ -31,19 +98,12 @@ Contour parse_xy(std::string_view text, const std::string& source) {
                                            foil->format, foil->name.empty() ? "" : ": '" + foil->name + "'"));
     for (const FilePoint& p : foil->points)
       builder.add(p.position, p.line);
-    builder.finish("the coordinates of an airfoil");
+    builder.finish();
+    check_reading(contour, faults, "the coordinates of an airfoil");
     return contour;
   }
-  VertexReader reader(contour.source);
-  for_each_line(plain ? *plain : text, [&](std::string_view content, int number, bool parts_rings) {
-    if (parts_rings)
-      builder.end_ring();
-    else if (!content.empty())
-      if (const auto vertex = reader.read(content, number))
-        builder.add(*vertex, number);
-  });
-  builder.finish("lines 'x y' that make a ring");
-  contour.warnings.insert(contour.warnings.begin(), reader.warnings().begin(), reader.warnings().end());
+  read_lines(plain ? *plain : text, contour, builder);
+  check_reading(contour, faults, "lines 'x y' that make a ring");
   return contour;
 }
 
@@ -78,7 +138,8 @@ Contour make_contour(const std::vector<std::vector<Vec2>>& rings, const std::str
       builder.add(p, ++number);
     builder.end_ring();
   }
-  builder.finish("vertices that make a ring");
+  builder.finish();
+  check_reading(contour, Faults::refuse, "vertices that make a ring");
   return contour;
 }
 
@@ -172,6 +233,8 @@ public:
   }
   void operator()(const ContourRing& ring) { members(*this, ring); }
   void operator()(const Contour& contour) { members(*this, contour); }
+  void operator()(const FaultList& faults) { members(*this, faults); }
+  void operator()(const Fault& fault) { members(*this, fault); }
   void operator()(const MapFeature& feature) { members(*this, feature); }
   std::string take() { return std::move(bytes_); }
 
@@ -201,6 +264,22 @@ public:
     visit(contour.crs);
     visit(contour.is_map);
     visit(contour.in_degrees);
+    visit(contour.faults);
+  }
+  template <class Visitor, class One>
+  requires std::is_same_v<std::remove_const_t<One>, FaultList>
+  static void members(Visitor& visit, One& faults) {
+    visit(faults.first);
+    visit(faults.repairable);
+    visit(faults.others);
+  }
+  template <class Visitor, class One>
+  requires std::is_same_v<std::remove_const_t<One>, Fault>
+  static void members(Visitor& visit, One& fault) {
+    visit(fault.where);
+    visit(fault.what);
+    visit(fault.remedy);
+    visit(fault.repaired);
   }
 
 private:
@@ -238,6 +317,8 @@ public:
   }
   void operator()(ContourRing& ring) { Writer::members(*this, ring); }
   void operator()(Contour& contour) { Writer::members(*this, contour); }
+  void operator()(FaultList& faults) { Writer::members(*this, faults); }
+  void operator()(Fault& fault) { Writer::members(*this, fault); }
   void operator()(MapFeature& feature) { Writer::members(*this, feature); }
 
 private:
@@ -253,31 +334,32 @@ private:
 
 } // namespace
 
-Contour parse_contour(std::string_view text, const std::string& source, const std::string& attribute) {
+Contour parse_contour(std::string_view text, const std::string& source, const std::string& attribute, Faults faults) {
   check_has_attributes(source, attribute);
   if (is_geojson(source))
-    return parse_geojson(text, source, attribute);
+    return parse_geojson(text, source, attribute, faults);
   refuse_geojson(text, source);
   if (ends_with_extension(source, ".poly"))
-    return parse_poly(text, source);
+    return parse_poly(text, source, {}, faults);
   if (ends_with_extension(source, ".msh"))
-    return parse_jigsaw(text, source);
-  return parse_xy(text, source);
+    return parse_jigsaw(text, source, faults);
+  return parse_xy(text, source, faults);
 }
 
-Contour read_contour(const std::string& path, const std::string& hint, const std::string& attribute) {
+Contour read_contour(const std::string& path, const std::string& hint, const std::string& attribute, Faults faults) {
   refuse_unread_formats(path);
   check_has_attributes(path, attribute);
   if (ends_with_extension(path, ".shp"))
-    return read_shapefile(path, hint, attribute);
+    return read_shapefile(path, hint, attribute, faults);
   const std::string text = read_file(path, hint);
   if (ends_with_extension(path, ".poly") && lacks_vertices(text)) {
     const std::string stem = path.substr(0, path.size() - std::string_view(".poly").size());
     return parse_poly(text, path,
                       read_file(stem + ".node", fmt::format(" ({} itself has no vertices, so they must be in {})", path,
-                                                            stem + ".node")));
+                                                            stem + ".node")),
+                      faults);
   }
-  return parse_contour(text, path, attribute);
+  return parse_contour(text, path, attribute, faults);
 }
 
 std::string to_bytes(const Contour& contour) {

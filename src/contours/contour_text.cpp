@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "contours/contour_text.hpp"
 
+#include "contours/faults.hpp"
 #include "contours/rules.hpp"
 #include "trime/core/error.hpp"
 
@@ -72,7 +73,7 @@ bool is_number(std::string_view word, double& value) {
   return result.ec != std::errc::invalid_argument;
 }
 
-/// The names of two columns; empty if the line is something else.
+/// The names of two columns, which a third one may follow; empty if the line is something else.
 std::array<std::string, 2> column_names(std::string_view line) {
   std::string plain(line);
   for (char& c : plain)
@@ -81,7 +82,8 @@ std::array<std::string, 2> column_names(std::string_view line) {
   std::array<std::string, 2> names;
   for (std::string& name : names)
     name = take_word(rest);
-  return trimmed(rest).empty() ? names : std::array<std::string, 2>{};
+  const std::string_view third = take_word(rest);
+  return trimmed(rest).empty() && (third.empty() || is_letter(third.front())) ? names : std::array<std::string, 2>{};
 }
 
 constexpr std::array<std::array<std::string_view, 2>, 6> known_columns{
@@ -107,14 +109,14 @@ bool take_first(std::string_view& line, double& value) {
 /// Recognises what people write instead of 'x y', for the message; empty if it is something else.
 std::string hint_for(std::string_view line, bool first) {
   if (first && are_columns(column_names(line), true))
-    return "; the columns are in the other order: write x (longitude) before y (latitude), and take this line out";
+    return "the columns are in the other order: write x (longitude) before y (latitude), and take this line out";
   if (first && is_letter(line.front()) && !line.starts_with("nan") && !line.starts_with("inf"))
-    return "; if this is a header, put '#' before it";
+    return "if this is a header, put '#' before it";
   if (line.front() == '{' || line.front() == '<')
-    return "; this looks like GeoJSON or XML: rename GeoJSON to NAME.geojson; convert other formats to lines 'x y' "
+    return "this looks like GeoJSON or XML: rename GeoJSON to NAME.geojson; convert other formats to lines 'x y' "
            "with a blank line between rings";
   if (line.find(',') != std::string_view::npos)
-    return "; write decimals with a point, and blanks or one comma between the two numbers";
+    return "write decimals with a point, and blanks or one comma between the two numbers";
   double number = 0;
   int numbers = 0;
   while (numbers < 4 && is_number(take_word(line), number))
@@ -251,22 +253,45 @@ std::optional<Vec2> pair_of_numbers(std::string_view line) {
   return std::nullopt;
 }
 
-std::optional<Vec2> VertexReader::read(std::string_view line, int number) {
-  if (const auto p = pair_of_numbers(line)) {
-    first_ = false;
-    return p;
-  }
+std::optional<Vec2> first_two_of_three(std::string_view line) {
+  const auto commas = std::count(line.begin(), line.end(), ',');
+  Vec2 p;
+  double third = 0;
+  if ((commas != 0 && commas != 2) || !take_first(line, p.x))
+    return std::nullopt;
+  const auto commas_left = std::count(line.begin(), line.end(), ',');
+  if (commas_left != commas / 2 || !take_first(line, p.y) || line.find(',') != std::string_view::npos)
+    return std::nullopt;
+  return is_number(take_word(line), third) && trimmed(line).empty() ? std::optional(p) : std::nullopt;
+}
+
+/// Does the line hold names of columns before all vertices? Adds the warning then.
+bool VertexReader::skips_columns(std::string_view line, int number) {
   if (!first_ || !are_columns(column_names(line), false))
-    refuse(line, number);
+    return false;
   first_ = false;
   warnings_.push_back(fmt::format("{}:{}: '{}' seems to hold the names of the columns and is ignored", source_, number,
                                   line.substr(0, most_shown)));
-  return std::nullopt;
+  return true;
 }
 
-void VertexReader::refuse(std::string_view line, int number) const {
-  throw GeometryError(fmt::format("{}:{}: expected two numbers 'x y', found '{}'{}", source_, number,
-                                  line.substr(0, most_shown), hint_for(line, first_)));
+std::optional<Vec2> VertexReader::read(std::string_view line, int number) {
+  FaultList faults;
+  const std::optional<Vec2> p = read(line, number, faults);
+  check_faults(faults, source_, Faults::refuse);
+  return p;
+}
+
+std::optional<Vec2> VertexReader::read(std::string_view line, int number, FaultList& faults) {
+  const std::optional<Vec2> p = pair_of_numbers(line);
+  if (!p && !skips_columns(line, number))
+    add_fault(faults, HasArea::yes, [&]() -> Fault {
+      return {fmt::format("{}:{}", source_, number),
+              fmt::format("expected two numbers 'x y', found '{}'", line.substr(0, most_shown)), hint_for(line, first_),
+              ""};
+    });
+  first_ = false;
+  return p;
 }
 
 WordLines::WordLines(std::string_view text, const std::string& source, std::string_view separators)

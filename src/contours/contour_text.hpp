@@ -50,6 +50,10 @@ void for_each_line(std::string_view text, const Visit& visit) {
 /// Returns the two numbers of a line, or nothing if the line holds anything else.
 std::optional<geometry::Vec2> pair_of_numbers(std::string_view line);
 
+/// Returns the first two numbers of a line with three numbers, between which there are only blanks or always one comma;
+/// nothing for any other line.
+std::optional<geometry::Vec2> first_two_of_three(std::string_view line);
+
 /// Reads the vertices of one text, line by line.
 class VertexReader {
 public:
@@ -61,11 +65,13 @@ public:
   /// Exponents may be written with e or d (Fortran). A number that is too small for double precision counts as 0.
   /// @throws GeometryError `source:line: ...` that says how to correct the line
   std::optional<geometry::Vec2> read(std::string_view line, int number);
+  /// The same, but a line that holds anything else becomes a fault, and the result is empty.
+  std::optional<geometry::Vec2> read(std::string_view line, int number, FaultList& faults);
   /// Returns warnings for the user about a skipped line of column names.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
 private:
-  [[noreturn]] void refuse(std::string_view line, int number) const;
+  bool skips_columns(std::string_view line, int number);
 
   const std::string& source_;
   std::vector<std::string> warnings_;
@@ -110,6 +116,6 @@ void check_coordinates(geometry::Vec2 p, const std::string& source, int line, co
 /// @throws FileError if a file is missing or damaged; ConfigError if there is no such attribute; GeometryError
 /// `source:record: ...` for lines that are not closed
 /// @note Serial.
-Contour read_shapefile(const std::string& path, const std::string& hint, const std::string& attribute);
+Contour read_shapefile(const std::string& path, const std::string& hint, const std::string& attribute, Faults faults);
 
 } // namespace trime::contours

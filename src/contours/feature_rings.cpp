@@ -2,7 +2,9 @@
 #include "contours/feature_rings.hpp"
 
 #include "contours/contour_text.hpp"
+#include "contours/faults.hpp"
 #include "contours/map_features.hpp"
+#include "contours/open_lines.hpp"
 #include "contours/segment_rings.hpp"
 #include "trime/core/error.hpp"
 
@@ -88,8 +90,9 @@ void FeatureRings::end_feature(const std::optional<std::string>& value, const Fe
     builder_.set_polygon(chain.polygon);
     for (const FilePoint& vertex : chain.vertices)
       builder_.add(vertex.position, vertex.line, number);
+    const std::size_t rings = contour_.rings.size();
     builder_.end_ring();
-    if (feature.number > 0)
+    if (feature.number > 0 && contour_.rings.size() > rings) // else the ring was a fault
       std::fill(contour_.rings.back().lines.begin(), contour_.rings.back().lines.end(), feature.number);
   }
   of_feature_.clear();
@@ -97,18 +100,19 @@ void FeatureRings::end_feature(const std::optional<std::string>& value, const Fe
   builder_.set_feature({});
 }
 
-void FeatureRings::finish(const char* expected) {
+void FeatureRings::finish(const char* expected, Faults faults) {
   end_feature();
   if (!attribute_.empty() && attributes_.count(attribute_) == 0)
     throw ConfigError(fmt::format("{}: expected features with the attribute '{}', found {}", contour_.source,
                                   attribute_,
                                   attributes_.empty() ? std::string("none with attributes")
                                                       : fmt::format("only {}", fmt::join(attributes_, ", "))));
-  check_ends();
+  leave_out_open();
   join_lines();
-  builder_.finish(expected);
+  builder_.finish();
   resolve_markers();
   tell_skipped();
+  check_reading(contour_, faults, expected);
 }
 
 int FeatureRings::number_of(const std::optional<std::string>& value) {
@@ -121,29 +125,35 @@ int FeatureRings::number_of(const std::optional<std::string>& value) {
   return at->second;
 }
 
-/// An even number of lines ends at each place.
-void FeatureRings::check_ends() const {
-  struct End : FilePoint {
-    const Chain* chain;
-  };
-  std::vector<End> ends;
-  for (const Chain& chain : open_lines_)
-    ends.insert(ends.end(), {{chain.vertices.front(), &chain}, {chain.vertices.back(), &chain}});
-  std::stable_sort(ends.begin(), ends.end(),
-                   [](const End& a, const End& b) { return geometry::lexicographically_less(a.position, b.position); });
-  const End* first = nullptr;
-  for (std::size_t k = 0, next = 0; k < ends.size(); k = next) {
-    next = k + 1;
-    while (next < ends.size() && ends[next].position == ends[k].position)
-      ++next;
-    if ((next - k) % 2 != 0 && (first == nullptr || ends[k].line < first->line))
-      first = &ends[k];
+/// Takes lines that do not close a ring out of open_lines_; they become faults.
+void FeatureRings::leave_out_open() {
+  std::vector<LineEnds> ends;
+  for (const Chain& chain : open_lines_) {
+    LineEnds& line = ends.emplace_back();
+    line.first = chain.vertices.front();
+    line.last = chain.vertices.back();
+    for (const FilePoint& vertex : chain.vertices)
+      line.box.include(vertex.position);
   }
-  if (first != nullptr)
-    throw GeometryError(fmt::format(
-        "{}:{}{}: expected polygons, or lines that end where they start or where another line ends; found a "
-        "line whose end at ({}, {}) no other line shares: close the ring, or make it a polygon",
-        contour_.source, first->line, first->chain->label, first->position.x, first->position.y));
+  const std::vector<OpenGroup> groups = open_groups(ends);
+  std::vector<char> is_left_out(open_lines_.size(), 0);
+  for (const OpenGroup& group : groups) {
+    add_fault(contour_.faults, group.nearly_closed || group.branches ? HasArea::yes : HasArea::no, [&] {
+      return fault_of(group, fmt::format("{}:{}{}", contour_.source, group.end.line, open_lines_[group.line].label));
+    });
+    for (const std::size_t line : group.left_out)
+      is_left_out[line] = 1;
+  }
+  std::size_t kept = 0;
+  for (std::size_t line = 0; line < open_lines_.size(); ++line)
+    if (is_left_out[line] == 0) {
+      open_markers_[kept] = open_markers_[line];
+      if (kept != line)
+        open_lines_[kept] = std::move(open_lines_[line]);
+      ++kept;
+    }
+  open_lines_.resize(kept);
+  open_markers_.resize(kept);
 }
 
 void FeatureRings::join_lines() {

@@ -40,12 +40,12 @@ public:
   /// @brief Ends the current feature, whose rings and lines get the marker of the value.
   /// @param value the value of the attribute, if the feature has it
   /// @param feature its number is higher than those of all features before
-  /// @throws GeometryError for coordinates that are too large, or a ring with fewer than three distinct vertices
+  /// @throws GeometryError for coordinates that are too large
   void end_feature(const std::optional<std::string>& value = {}, const FeatureName& feature = {});
-  /// @brief Joins open lines to rings, and gives all rings their markers.
+  /// @brief Joins open lines to rings, and gives all rings their markers. Lines that remain open are faults.
   /// @param expected what the file should contain; used in the message if it contains no vertex
-  /// @throws GeometryError if lines remain open; ConfigError if no feature has the attribute
-  void finish(const char* expected);
+  /// @throws GeometryError under the conditions of check_reading; ConfigError if no feature has the attribute
+  void finish(const char* expected, Faults faults);
 
 private:
   struct Chain {
@@ -58,7 +58,7 @@ private:
 
   void note_feature(const FeatureName& feature);
   int number_of(const std::optional<std::string>& value);
-  void check_ends() const;
+  void leave_out_open();
   void join_lines();
   void resolve_markers();
   void tell_skipped();

@@ -141,7 +141,7 @@ public:
            fmt::format("expected JSON, found '{}'; the file is damaged or cut off here, or not GeoJSON", shown(token)));
   }
 
-  void finish() { rings_.finish("GeoJSON with a Polygon or MultiPolygon"); }
+  void finish(Faults faults) { rings_.finish("GeoJSON with a Polygon or MultiPolygon", faults); }
 
 private:
   struct Array {
@@ -252,14 +252,14 @@ private:
 
 } // namespace
 
-Contour parse_geojson(std::string_view text, const std::string& source, const std::string& attribute) {
+Contour parse_geojson(std::string_view text, const std::string& source, const std::string& attribute, Faults faults) {
   check_encoding(text, source);
   Contour contour;
   contour.source = source;
   int line = 1;
   GeoJsonReader reader(contour, attribute, line);
   nlohmann::json::sax_parse(LineIterator(text.data(), &line), LineIterator(text.data() + text.size(), &line), &reader);
-  reader.finish();
+  reader.finish(faults);
   return contour;
 }
 

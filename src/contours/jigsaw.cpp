@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The .msh files of JIGSAW (Engwirda, https://github.com/dengwirda/jigsaw/wiki): sections of a plane mesh or geometry.
 #include "contours/contour_text.hpp"
+#include "contours/faults.hpp"
 #include "contours/segment_rings.hpp"
 #include "trime/contours/contour.hpp"
 #include "trime/core/error.hpp"
@@ -12,7 +13,7 @@ class JigsawReader {
 public:
   JigsawReader(std::string_view text, const std::string& source) : source_(source), lines_(text, source, ";=,") {}
 
-  Contour read() {
+  Contour read(Faults faults) {
     Contour contour;
     contour.source = source_;
     while (lines_.next())
@@ -30,13 +31,16 @@ public:
               fmt::format("{}:{}: expected points from 0 to {}, found {}", source_, s.line, vertices_.size() - 1, end));
     if (segments_.empty())
       throw GeometryError(fmt::format("{}: expected edges (a section 'edge2=N'), found none", source_));
+    if (faults == Faults::repair)
+      remove_open_chains(vertices_, segments_, source_, contour.warnings);
     RingBuilder builder(contour);
     for (const auto& ring : rings_of_segments(vertices_, segments_, source_, contour.warnings)) {
       for (const RingVertex& v : ring)
         builder.add(v.position, v.line, v.marker);
       builder.end_ring();
     }
-    builder.finish("edges that make rings");
+    builder.finish();
+    check_reading(contour, faults, "edges that make rings");
     return contour;
   }
 
@@ -116,9 +120,9 @@ private:
 
 } // namespace
 
-Contour parse_jigsaw(std::string_view text, const std::string& source) {
+Contour parse_jigsaw(std::string_view text, const std::string& source, Faults faults) {
   check_encoding(text, source);
-  return JigsawReader(text, source).read();
+  return JigsawReader(text, source).read(faults);
 }
 
 } // namespace trime::contours

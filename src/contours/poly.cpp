@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The .poly files of Triangle (Shewchuk, https://www.cs.cmu.edu/~quake/triangle.poly.html).
 #include "contours/contour_text.hpp"
+#include "contours/faults.hpp"
+#include "contours/inner_lines.hpp"
+#include "contours/ring_nesting.hpp"
 #include "contours/segment_rings.hpp"
-#include "geometry/box_tree.hpp"
 #include "trime/contours/contour.hpp"
 #include "trime/core/error.hpp"
 
@@ -17,100 +19,14 @@ namespace {
 
 using geometry::Vec2;
 
+using Ring = RingVertices;
+
+constexpr std::size_t nowhere = Nesting::nowhere;
+
 /// @brief Returns the rings with material on one side only, ascending: by even-odd nesting they enclose what all rings
 /// enclose, except the areas right around a hole point. Others are left out; a warning lists those with material on
 /// both sides, and hole points outside of all rings.
 /// @pre rings do not cross. O(vertices) for each ring and hole within the boxes of others.
-std::vector<std::size_t> rings_around_material(const std::vector<std::vector<RingVertex>>& rings,
-                                               const std::vector<FilePoint>& holes, const std::string& source,
-                                               std::vector<std::string>& warnings);
-
-using geometry::Box;
-using Ring = std::vector<RingVertex>;
-
-constexpr std::size_t nowhere = static_cast<std::size_t>(-1);
-
-double area_of(const Ring& ring) {
-  double twice = 0;
-  for (std::size_t k = 0; k < ring.size(); ++k)
-    twice +=
-        geometry::cross(ring[k].position - ring[0].position, ring[(k + 1) % ring.size()].position - ring[0].position);
-  return std::fabs(twice) / 2;
-}
-
-/// The edges of a ring, to find those right of a point.
-class RingEdges {
-public:
-  explicit RingEdges(const Ring& ring) : ring_(ring) {
-    std::vector<Box> boxes;
-    for (std::size_t k = 0; k < ring.size(); ++k) {
-      Box& box = boxes.emplace_back();
-      box.include(ring[k].position);
-      box.include(ring[(k + 1) % ring.size()].position);
-      whole_ = geometry::united(whole_, box);
-    }
-    tree_ = geometry::BoxTree(boxes);
-  }
-
-  /// Does the ring run around p? O(log(edges) + those right of p).
-  bool enclose(Vec2 p) const {
-    const double rounding = 1e-12 * std::fmax(std::fabs(whole_.min.x), std::fabs(whole_.max.x));
-    bool inside = false;
-    tree_.for_each_meeting({{p.x - rounding, p.y}, {whole_.max.x, p.y}}, [&](std::size_t k) {
-      const Vec2 a = ring_[k].position, b = ring_[(k + 1) % ring_.size()].position;
-      if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (b.x - a.x) * ((p.y - a.y) / (b.y - a.y)))
-        inside = !inside;
-    });
-    return inside;
-  }
-  const Box& box() const { return whole_; }
-
-private:
-  const Ring& ring_;
-  Box whole_;
-  geometry::BoxTree tree_;
-};
-
-class Nesting {
-public:
-  explicit Nesting(const std::vector<Ring>& rings) : rings_(rings), areas_(rings.size()), rank_(rings.size()) {
-    std::vector<Box> boxes;
-    for (std::size_t k = 0; k < rings.size(); ++k) {
-      edges_.emplace_back(rings[k]);
-      boxes.push_back(edges_.back().box());
-      areas_[k] = area_of(rings[k]);
-    }
-    tree_ = geometry::BoxTree(boxes);
-    std::vector<std::size_t> by_area(rings.size());
-    std::iota(by_area.begin(), by_area.end(), std::size_t{0});
-    std::stable_sort(by_area.begin(), by_area.end(),
-                     [this](std::size_t a, std::size_t b) { return areas_[a] < areas_[b]; });
-    for (std::size_t k = 0; k < by_area.size(); ++k)
-      rank_[by_area[k]] = k;
-  }
-
-  /// The smallest ring around p that is larger than `above`.
-  std::size_t around(Vec2 p, double above) const {
-    std::size_t smallest = nowhere;
-    tree_.for_each_meeting({p, p}, [&](std::size_t k) {
-      if (areas_[k] > above && (smallest == nowhere || rank_[k] < rank_[smallest]) && edges_[k].enclose(p))
-        smallest = k;
-    });
-    return smallest;
-  }
-  /// The smallest ring around ring k. Rings may meet in vertices, so the middle of an edge is asked.
-  std::size_t around(std::size_t k) const {
-    return around(0.5 * (rings_[k][0].position + rings_[k][1].position), areas_[k]);
-  }
-
-private:
-  const std::vector<Ring>& rings_;
-  std::vector<RingEdges> edges_;
-  std::vector<double> areas_;
-  std::vector<std::size_t> rank_; // by area
-  geometry::BoxTree tree_;        // of the boxes of the rings
-};
-
 std::vector<std::size_t> rings_around_material(const std::vector<Ring>& rings, const std::vector<FilePoint>& holes,
                                                const std::string& source, std::vector<std::string>& warnings) {
   const Nesting nesting(rings);
@@ -152,7 +68,7 @@ public:
       : source_(source), lines_(text, source, ","), node_source_(source.substr(0, source.size() - 5) + ".node"),
         node_lines_(nodes, node_source_, ",") {}
 
-  Contour read() {
+  Contour read(Faults faults) {
     Contour contour;
     contour.source = source_;
     read_vertices();
@@ -167,6 +83,7 @@ public:
     RingBuilder builder(contour);
     const std::vector<FileSegment> all = segments_;
     remove_open_chains(vertices_, segments_, source_, contour.warnings);
+    remove_inner_lines(vertices_, segments_, holes_, contour);
     const auto rings = rings_of_segments(vertices_, segments_, source_, contour.warnings);
     const auto kept = rings_around_material(rings, holes_, source_, contour.warnings);
     if (kept.empty()) // throws if a ring around a hole point is open: then the hole is all that the other rings enclose
@@ -176,7 +93,8 @@ public:
         builder.add(v.position, v.line, v.marker);
       builder.end_ring();
     }
-    builder.finish("segments that enclose an area without a hole point in it");
+    builder.finish();
+    check_reading(contour, faults, "segments that enclose an area without a hole point in it");
     return contour;
   }
 
@@ -277,9 +195,9 @@ private:
 
 } // namespace
 
-Contour parse_poly(std::string_view text, const std::string& source, std::string_view nodes) {
+Contour parse_poly(std::string_view text, const std::string& source, std::string_view nodes, Faults faults) {
   check_encoding(text, source);
-  return PolyReader(text, source, nodes).read();
+  return PolyReader(text, source, nodes).read(faults);
 }
 
 } // namespace trime::contours

@@ -2,6 +2,7 @@
 #include "contours/segment_rings.hpp"
 
 #include "contours/contour_text.hpp"
+#include "contours/faults.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
@@ -29,18 +30,26 @@ void RingBuilder::add(Vec2 p, int line, int marker) {
 }
 
 void RingBuilder::end_ring() {
-  if (ring_.points.empty())
+  if (ring_.points.empty() || is_spoiled_) {
+    ring_ = {};
+    is_spoiled_ = false;
     return;
+  }
   if (ring_.points.size() > 1 && ring_.points.front() == ring_.points.back()) {
     ring_.points.pop_back();
     ring_.lines.pop_back();
     ring_.markers.pop_back();
   }
-  if (const int distinct = distinct_vertices(); distinct < 3)
-    throw GeometryError(fmt::format("{}:{}{}: the ring that starts here at ({}, {}) has {} distinct {}; expected at "
-                                    "least 3",
-                                    contour_.source, ring_.lines[0], feature_, ring_.points[0].x, ring_.points[0].y,
-                                    distinct, distinct == 1 ? "vertex" : "vertices"));
+  if (const int distinct = distinct_vertices(); distinct < 3) {
+    add_fault(contour_.faults, HasArea::no, [&]() -> Fault {
+      return {fmt::format("{}:{}{}", contour_.source, ring_.lines[0], feature_),
+              fmt::format("the ring that starts here at ({}, {}) has {} distinct {}", ring_.points[0].x,
+                          ring_.points[0].y, distinct, distinct == 1 ? "vertex" : "vertices"),
+              "expected at least 3", "the ring is left out"};
+    });
+    ring_ = {};
+    return;
+  }
   if (std::all_of(ring_.markers.begin(), ring_.markers.end(), [](int marker) { return marker == 0; }))
     ring_.markers = {};
   ring_.points.shrink_to_fit(); // they have grown by doubling
@@ -51,10 +60,8 @@ void RingBuilder::end_ring() {
   ring_ = {};
 }
 
-void RingBuilder::finish(const char* expected) {
+void RingBuilder::finish() {
   end_ring();
-  if (contour_.rings.empty())
-    throw GeometryError(fmt::format("{}: expected {}, found no vertex at all", contour_.source, expected));
   if (merged_ > most_warnings)
     contour_.warnings.push_back(
         fmt::format("{}: {} more repeated consecutive vertices merged", contour_.source, merged_ - most_warnings));

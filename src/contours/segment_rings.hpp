@@ -11,7 +11,7 @@
 
 namespace trime::contours {
 
-/// Makes the rings of a contour vertex by vertex. Removes repeated vertices and refuses rings with too few vertices.
+/// Makes the rings of a contour vertex by vertex. Removes repeated vertices; rings with too few vertices are faults.
 class RingBuilder {
 public:
   /// @param contour its member `source` must be set; receives rings and warnings, and must outlive this object
@@ -25,13 +25,12 @@ public:
   /// @param marker marker of the edge from this vertex to the next
   /// @throws GeometryError for coordinates that are too large
   void add(geometry::Vec2 p, int line, int marker = 0);
-  /// Ends the current ring.
-  /// @throws GeometryError for a ring with fewer than three distinct vertices
+  /// Leaves out the current ring, which has a vertex that cannot be read.
+  void spoil() { is_spoiled_ = true; }
+  /// Ends the current ring. A ring with fewer than three distinct vertices becomes a fault of the contour.
   void end_ring();
-  /// Ends the text.
-  /// @param expected what the text should contain; used in the message if it contains no vertex
-  /// @throws GeometryError if there is no vertex, or if the last ring has fewer than three distinct vertices
-  void finish(const char* expected);
+  /// Ends the last ring and the text.
+  void finish();
 
 private:
   int distinct_vertices() const;
@@ -42,6 +41,7 @@ private:
   std::string feature_;
   int polygon_ = 0;
   int merged_ = 0;
+  bool is_spoiled_ = false;
 };
 
 struct FileVertex {

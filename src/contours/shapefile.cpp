@@ -164,7 +164,7 @@ public:
     contour_.source = path;
   }
 
-  Contour read() {
+  Contour read(Faults faults) {
     int records = 0, type = 0;
     SHPGetInfo(file_.get(), &records, &type, nullptr, nullptr);
     for (int k = 0; k < records; ++k) {
@@ -175,7 +175,7 @@ public:
       add(*record, k + 1);
       rings_.end_feature(attributes_.of(k), {k + 1, attributes_.name_of(k)});
     }
-    rings_.finish("a shapefile with polygons");
+    rings_.finish("a shapefile with polygons", faults);
     for (MapFeature& feature : contour_.features)
       feature.line = 0;
     return std::move(contour_);
@@ -215,9 +215,9 @@ private:
 
 } // namespace
 
-Contour read_shapefile(const std::string& path, const std::string& hint, const std::string& attribute) {
+Contour read_shapefile(const std::string& path, const std::string& hint, const std::string& attribute, Faults faults) {
   const std::string bytes = read_file(path, hint); // the reason of the system if it cannot be opened
-  Contour contour = ShapefileReader(path, bytes, attribute).read();
+  Contour contour = ShapefileReader(path, bytes, attribute).read(faults);
   if (const std::string prj = beside(path, ".prj", ".PRJ"); std::filesystem::exists(prj))
     contour.crs = std::string(trimmed(read_file(prj)));
   return contour;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shape/contour_polygon.hpp"
 
+#include "contours/faults.hpp"
 #include "contours/map_features.hpp"
+#include "contours/ring_repair.hpp"
 #include "geometry/predicates.hpp"
 #include "shape/dissolve.hpp"
 #include "shape/lattice_rings.hpp"
@@ -11,7 +13,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <span>
+#include <utility>
 
 namespace trime::shape {
 
@@ -44,17 +48,37 @@ Vec2 meeting_point(const Segment& s, const Segment& t) {
   return s.a + (cross(t.a - s.a, e) / determinant) * d;
 }
 
+bool is_collinear(const std::vector<Vec2>& p) {
+  for (std::size_t k = 2; k < p.size(); ++k)
+    if (orient2d(p[0], p[1], p[k]) != 0)
+      return false;
+  return true;
+}
+
+/// Does the ring turn straight back at a vertex?
+bool has_spike(const std::vector<Vec2>& p) {
+  const std::size_t n = p.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    const Vec2 before = p[(k + n - 1) % n], here = p[k], after = p[(k + 1) % n];
+    if (orient2d(before, here, after) == 0 && dot(before - here, after - here) > 0)
+      return true;
+  }
+  return false;
+}
+
 /// The rings on the lattice while they are made and checked.
 class Placement {
 public:
   Placement(const contours::Contour& contour, const contours::Normalization& normalization, const Frame& frame,
             const TouchOptions& touches)
-      : contour_(contour), normalization_(normalization), frame_(frame), touches_(touches) {}
+      : contour_(contour), normalization_(normalization), frame_(frame), touches_(touches), faults_(contour.faults) {}
 
   Polygon make(std::vector<std::string>& warnings) {
     for (const contours::ContourRing& ring : contour_.rings)
       add_ring(ring, warnings);
     std::vector<std::string> notes;
+    if (touches_.dissolve || rings_.empty())
+      check_faults();
     if (touches_.dissolve)
       unite(notes);
     for (const RepeatedRing& ring : drop_repeated(rings_))
@@ -67,6 +91,8 @@ public:
     if (const std::vector<SegmentPair> meetings = find_meetings(rings_, grid); !meetings.empty()) {
       separate(meetings, grid, warnings);
     }
+    check_faults();
+    contours::tell_repaired(faults_, contour_.source, warnings);
     Polygon polygon;
     polygon.grid = std::move(grid);
     for (LocalIndex first = 0; const LatticeRing& ring : rings_) {
@@ -88,13 +114,19 @@ public:
 
 private:
   void add_ring(const contours::ContourRing& ring, std::vector<std::string>& warnings);
-  void check_turns(const std::vector<Vec2>& p, const std::vector<int>& lines) const;
+  void add_checked(contours::ContourRing ring);
+  void check_faults() const;
   void unite(std::vector<std::string>& notes);
   void separate(const std::vector<SegmentPair>& meetings, SegmentGrid& grid, std::vector<std::string>& warnings);
   void tell_touches(const std::vector<RingTouch>& touches, double gap, std::vector<std::string>& warnings) const;
   void tell_pieces(const Polygon& polygon, std::vector<std::string>& warnings) const;
   std::string other_edge(const std::array<int, 2>& lines) const;
-  [[noreturn]] void report(const SegmentGrid& grid, const SegmentPair& pair) const;
+  void repair_self_meetings(const std::vector<SegmentPair>& meetings);
+  void list_meetings(const SegmentGrid& grid, std::span<const SegmentPair> pairs, bool within_rings);
+  void explain(const std::vector<SegmentPair>& meetings);
+  std::pair<std::size_t, int> ring_and_line_of(LocalIndex segment) const;
+  contours::Fault fault_of(const SegmentGrid& grid, const SegmentPair& pair) const;
+  contours::PlaceText place_text() const;
   std::vector<int> markers_of_segments() const;
   std::string in_file(Vec2 p) const;
 
@@ -103,6 +135,7 @@ private:
   const Frame& frame_;
   const TouchOptions& touches_;
   std::vector<LatticeRing> rings_;
+  contours::FaultList faults_;
 };
 
 /// Returns the markers of all segments of the rings; empty if no segment has one.
@@ -176,26 +209,41 @@ void Placement::add_ring(const contours::ContourRing& ring, std::vector<std::str
   lines.resize(points.size());
   if (marked)
     markers.resize(points.size());
-  check_turns(points, lines);
-  rings_.push_back({std::move(points), std::move(lines), std::move(markers), ring.polygon});
+  add_checked({std::move(points), std::move(lines), std::move(markers), {}, ring.polygon});
 }
 
-void Placement::check_turns(const std::vector<Vec2>& p, const std::vector<int>& lines) const {
-  const std::size_t n = p.size();
-  bool collinear = true;
-  for (std::size_t k = 2; k < n && collinear; ++k)
-    collinear = orient2d(p[0], p[1], p[k]) == 0;
-  if (collinear)
-    throw GeometryError(fmt::format("{}: the ring that starts here at {} encloses no area: all its vertices lie on "
-                                    "one line",
-                                    where(contour_, lines.empty() ? 0 : lines[0]), n > 0 ? in_file(p[0]) : "nowhere"));
-  for (std::size_t k = 0; k < n; ++k) {
-    const Vec2 before = p[(k + n - 1) % n], here = p[k], after = p[(k + 1) % n];
-    if (orient2d(before, here, after) == 0 && dot(before - here, after - here) > 0)
-      throw GeometryError(fmt::format("{}: the ring turns straight back at {}: the edges before and after this "
-                                      "vertex overlap; remove the spike",
-                                      where(contour_, lines[k]), in_file(here)));
-  }
+/// Adds a ring without what has no area, which becomes a fault.
+void Placement::add_checked(contours::ContourRing ring) {
+  const auto take = [this](contours::ContourRing& one) {
+    if (!is_collinear(one.points)) {
+      rings_.push_back({std::move(one.points), std::move(one.lines), std::move(one.markers), one.polygon});
+      return;
+    }
+    contours::add_fault(faults_, contours::HasArea::no, [&]() -> contours::Fault {
+      return {place_text().where(one.lines.empty() ? 0 : one.lines[0]),
+              fmt::format("the ring that starts here at {} encloses no area: all its vertices lie on one line",
+                          one.points.empty() ? "nowhere" : in_file(one.points[0])),
+              "remove the ring", "the ring is left out"};
+    });
+  };
+  if (is_collinear(ring.points) || (touches_.faults != contours::Faults::repair && !has_spike(ring.points)))
+    return take(ring);
+  contours::RepairedRing repaired = contours::repair_ring(ring, ShapeRules::on_edge * frame_.step());
+  if (!repaired.seams.empty())
+    contours::add_faults(faults_, repaired, ring, place_text());
+  for (contours::ContourRing& left : repaired.rings)
+    take(left);
+}
+
+/// Throws if there are faults that are not repaired, or if nothing is left.
+void Placement::check_faults() const {
+  contours::check_faults(faults_, contour_.source,
+                         rings_.empty() && touches_.faults == contours::Faults::repair ? contours::Faults::refuse
+                                                                                       : touches_.faults);
+}
+
+contours::PlaceText Placement::place_text() const {
+  return {[this](int line) { return where(contour_, line); }, [this](Vec2 p) { return in_file(p); }};
 }
 
 /// Replaces the rings by those around the union of all polygons.
@@ -230,9 +278,73 @@ void Placement::separate(const std::vector<SegmentPair>& meetings, SegmentGrid& 
       grid = std::move(separated);
       return;
     } else if (gap == least) {
-      report(separated, left[0]);
+      rings_ = given;
+      explain(meetings);
+      return;
     }
   }
+}
+
+/// Lists why rings meet that cannot be separated: what has no area, and then all meetings that are left without it.
+void Placement::explain(const std::vector<SegmentPair>& meetings) {
+  const std::uint64_t before = faults_.repairable;
+  repair_self_meetings(meetings);
+  bool within_rings = true;
+  if (faults_.repairable == before && touches_.faults != contours::Faults::repair) {
+    contours::Contour in_file = contour_; // where a projection has moved the two edges apart
+    std::erase_if(in_file.rings, [](const contours::ContourRing& ring) { return ring.in_file.empty(); });
+    for (contours::ContourRing& ring : in_file.rings)
+      ring.points = std::exchange(ring.in_file, {});
+    in_file.faults = {};
+    contours::repair_rings(in_file);
+    within_rings = in_file.faults.empty();
+    for (contours::Fault& fault : in_file.faults.first)
+      contours::add_fault(faults_, contours::HasArea::no, [&] { return std::move(fault); });
+  }
+  const SegmentGrid grid(segments_of(rings_));
+  part_touches(rings_, find_meetings(rings_, grid), grid, frame_,
+               {touches_.outside, false, ShapeRules::touch_gap * frame_.step()});
+  const SegmentGrid separated(segments_of(rings_));
+  list_meetings(separated, find_meetings(rings_, separated), within_rings);
+}
+
+/// Repairs rings that meet themselves; what they lose is a fault.
+void Placement::repair_self_meetings(const std::vector<SegmentPair>& meetings) {
+  std::set<std::size_t> meeting_themselves;
+  for (const auto& [i, j] : meetings)
+    if (const std::size_t ring = ring_and_line_of(i).first; ring == ring_and_line_of(j).first)
+      meeting_themselves.insert(ring);
+  std::vector<LatticeRing> given = std::exchange(rings_, {});
+  for (std::size_t k = 0; k < given.size(); ++k) {
+    if (meeting_themselves.count(k) == 0) {
+      rings_.push_back(std::move(given[k]));
+      continue;
+    }
+    const contours::ContourRing ring{given[k].points, given[k].lines, given[k].markers, {}, given[k].polygon};
+    contours::RepairedRing repaired = contours::repair_ring(ring, ShapeRules::on_edge * frame_.step());
+    if (!repaired.seams.empty())
+      contours::add_faults(faults_, repaired, ring, place_text());
+    for (contours::ContourRing& left : repaired.rings)
+      rings_.push_back({std::move(left.points), std::move(left.lines), std::move(left.markers), left.polygon});
+  }
+}
+
+/// Adds a fault for each pair of rings that meet; rings that meet themselves count if `within_rings`.
+void Placement::list_meetings(const SegmentGrid& grid, std::span<const SegmentPair> pairs, bool within_rings) {
+  std::set<std::pair<std::size_t, std::size_t>> seen;
+  for (const SegmentPair& pair : pairs) {
+    const std::size_t first = ring_and_line_of(pair[0]).first, second = ring_and_line_of(pair[1]).first;
+    if ((first != second || within_rings) && seen.insert({first, second}).second)
+      contours::add_fault(faults_, contours::HasArea::yes, [&] { return fault_of(grid, pair); });
+  }
+}
+
+std::pair<std::size_t, int> Placement::ring_and_line_of(LocalIndex segment) const {
+  auto index = at(segment);
+  std::size_t ring = 0;
+  while (index >= rings_[ring].points.size())
+    index -= rings_[ring++].points.size();
+  return {ring, rings_[ring].lines[index]};
 }
 
 void Placement::tell_touches(const std::vector<RingTouch>& touches, double gap,
@@ -257,19 +369,13 @@ std::string Placement::other_edge(const std::array<int, 2>& lines) const {
   return (contour_.features.empty() ? "the edge that starts at " : "an edge of ") + line_or_feature(contour_, lines[1]);
 }
 
-void Placement::report(const SegmentGrid& grid, const SegmentPair& pair) const {
+contours::Fault Placement::fault_of(const SegmentGrid& grid, const SegmentPair& pair) const {
   const Segment &s = grid.segments()[at(pair[0])], &t = grid.segments()[at(pair[1])];
-  std::array<std::size_t, 2> ring{};
-  std::array<int, 2> line{};
-  for (std::size_t k = 0; k < 2; ++k) {
-    auto index = at(pair[k]);
-    while (index >= rings_[ring[k]].points.size())
-      index -= rings_[ring[k]++].points.size();
-    line[k] = rings_[ring[k]].lines[index];
-  }
-  const bool same = ring[0] == ring[1], crossing = meeting_of(s, t) == Meeting::crossing;
+  const auto [first_ring, line] = ring_and_line_of(pair[0]);
+  const auto [second_ring, other_line] = ring_and_line_of(pair[1]);
+  const bool same = first_ring == second_ring, crossing = meeting_of(s, t) == Meeting::crossing;
   const bool is_map = contour_.is_map,
-             one_polygon = rings_[ring[0]].polygon == rings_[ring[1]].polygon && rings_[ring[0]].polygon != 0;
+             one_polygon = rings_[first_ring].polygon == rings_[second_ring].polygon && rings_[first_ring].polygon != 0;
   const char* remedy =
       !same && one_polygon ? "rings of one polygon must not cross; ogr2ogr -makevalid may repair it"
       : !same && is_map    ? "polygons of a map must neither overlap nor share borders; set 'overlap = union' in the "
@@ -281,10 +387,10 @@ void Placement::report(const SegmentGrid& grid, const SegmentPair& pair) const {
                              "'geometry', or dissolve their common borders first, as QGIS does"
                            : "two rings touch or overlap along an edge, or cross at a vertex; make each one a separate "
                              "part and unite them in 'geometry', or dissolve their common borders first, as QGIS does";
-  throw GeometryError(fmt::format("{}: {} {} {} near {}; {}", where(contour_, line[0]),
-                                  contour_.features.empty() ? "the edge that starts here" : "an edge",
-                                  crossing ? "crosses" : "touches", other_edge(line), in_file(meeting_point(s, t)),
-                                  remedy));
+  return {where(contour_, line),
+          fmt::format("{} {} {} near {}", contour_.features.empty() ? "the edge that starts here" : "an edge",
+                      crossing ? "crosses" : "touches", other_edge({line, other_line}), in_file(meeting_point(s, t))),
+          remedy, ""};
 }
 
 /// Returns a warning for every ring that encloses a separate piece, except the one with the largest area. Maps mean

@@ -6,6 +6,7 @@
 
 #include "trime/geometry/vec2.hpp"
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,6 +31,29 @@ struct MapFeature {
   std::string name; ///< value of its attribute `name`, or of another one by which people recognise it; may be empty
 };
 
+/// Something for which a file is refused.
+struct Fault {
+  std::string where;    ///< file and line, and the feature of a map
+  std::string what;     ///< what is wrong, with the place
+  std::string remedy;   ///< what the user can do
+  std::string repaired; ///< what a repair does, as the end of a sentence; empty: a repair is not possible
+};
+
+/// The faults of a file: how many there are, and the first ones of both kinds.
+struct FaultList {
+  std::vector<Fault> first;                 ///< in the order in which they were found
+  std::uint64_t repairable = 0, others = 0; ///< numbers of all faults
+  bool empty() const { return repairable + others == 0; }
+};
+
+/// What happens if a file has faults. A fault without area can be repaired: rings with fewer than three distinct
+/// vertices, spikes, pairs of edges that cancel each other, and open lines of maps.
+enum class Faults {
+  refuse,  ///< the reader throws an error that lists them
+  collect, ///< they are in Contour::faults, for Part::contour to list them together with those that it finds
+  repair,  ///< what has no area is left out, which Part::contour reports in its warnings; other faults are errors
+};
+
 /// Rings in the coordinates of their file, unless they are projected. A ring is a hole if it lies inside of an odd
 /// number of other rings.
 struct Contour {
@@ -43,6 +67,7 @@ struct Contour {
   bool is_map =
       false; ///< true if the rings come from a map: there may be several polygons, and coordinates may be degrees
   bool in_degrees = false; ///< true if ContourRing::in_file holds longitudes and latitudes
+  FaultList faults{}; ///< faults that the reader has found; what is faulty is not in `rings`
 };
 
 /// @brief Reads the rings of a file. The ending of its name decides the format: `.poly` (Triangle), `.shp` (ESRI),
@@ -50,13 +75,16 @@ struct Contour {
 /// too, and NAME.prj if it exists. If a `.poly` file has no vertices, they are read from NAME.node.
 /// @param hint text that ends the error message if the file cannot be opened
 /// @param attribute the attribute of map features that names their boundary, see parse_geojson; empty: no attribute
+/// @param faults what happens if rings of the file have faults. A text that cannot be read is always an error
 /// @throws ConfigError for formats that are recognised but not supported, or have no attributes; FileError if a file
 /// cannot be read; GeometryError `source:line: ...` under the conditions of the parse functions below
 /// @note Serial.
-Contour read_contour(const std::string& path, const std::string& hint = "", const std::string& attribute = "");
+Contour read_contour(const std::string& path, const std::string& hint = "", const std::string& attribute = "",
+                     Faults faults = Faults::refuse);
 
 /// Reads the rings of a text. The ending of `source` decides the format, as in read_contour.
-Contour parse_contour(std::string_view text, const std::string& source, const std::string& attribute = "");
+Contour parse_contour(std::string_view text, const std::string& source, const std::string& attribute = "",
+                      Faults faults = Faults::refuse);
 
 /// @brief Reads rings of `.xy` text, which has one `x y` per line. A blank line, or a line that starts with `>`, ends a
 /// ring; `#` and `;` start comments. Numbers may be separated by a comma. If all lines have the form `10,15;20,55` or
@@ -65,10 +93,10 @@ Contour parse_contour(std::string_view text, const std::string& source, const st
 /// Lines end with LF, CR LF or CR. Exponents may be written with `d` (Fortran). A heading such as `x y` or `lon lat` in
 /// the first line is skipped with a warning. A ring may repeat its first vertex at its end or not; repeated consecutive
 /// vertices are merged with a warning. Coordinates of an airfoil in the formats of Selig or Lednicer, after a line with
-/// its name, are one ring.
-/// @throws GeometryError `source:line: ...` for a line that does not hold two finite numbers of at most 1e30, for a
-/// ring with fewer than three distinct vertices, for a text without vertices, and for UTF-16
-Contour parse_xy(std::string_view text, const std::string& source);
+/// its name, are one ring. With Faults::repair, a third number is ignored if all lines have one.
+/// @throws GeometryError `source:line: ...` for lines that do not hold two finite numbers of at most 1e30, for
+/// rings with fewer than three distinct vertices, for a text without vertices, and for UTF-16
+Contour parse_xy(std::string_view text, const std::string& source, Faults faults = Faults::refuse);
 
 /// A point with its line in the file.
 struct FilePoint {
@@ -89,13 +117,14 @@ std::vector<FilePoint> parse_points(std::string_view text, const std::string& so
 /// @param attribute the property of the features that marks their rings or lines; empty: no property. If all its values
 /// are integers, these are the markers. Otherwise the distinct values are numbered in the order of the file; the
 /// numbers are the markers and the values their names. A feature without the property has the marker 0
-/// @throws GeometryError `source:line: ...` for text that is not JSON, a position without two numbers, a line that is
+/// @throws GeometryError `source:line: ...` for text that is not JSON, a position without two numbers, lines that are
 /// not closed, or a text without polygons; ConfigError if no feature has the attribute
-Contour parse_geojson(std::string_view text, const std::string& source, const std::string& attribute = "");
+Contour parse_geojson(std::string_view text, const std::string& source, const std::string& attribute = "",
+                      Faults faults = Faults::refuse);
 
 /// @brief Reads rings from the segments of a `.poly` file of Triangle, with their markers. Vertices are numbered from 0
 /// or 1. Numbers may be separated by commas.
-/// Open chains of segments are left out with a warning.
+/// Open chains of segments are left out with a warning, and so are segments that have material on both sides.
 ///
 /// The rings enclose the area that Triangle would mesh: everything enclosed by segments, except areas with a hole
 /// point. Two rings with the same segments are left out with a warning, and so are vertices without segments and
@@ -103,13 +132,14 @@ Contour parse_geojson(std::string_view text, const std::string& source, const st
 /// @param nodes text of the `.node` file; needed if the `.poly` file has no vertices
 /// @throws GeometryError `source:line: ...` for a text that is not in the `.poly` format, or segments that do not form
 /// rings
-Contour parse_poly(std::string_view text, const std::string& source, std::string_view nodes = {});
+Contour parse_poly(std::string_view text, const std::string& source, std::string_view nodes = {},
+                   Faults faults = Faults::refuse);
 
 /// @brief Reads rings from the edges (`edge2`) of a two-dimensional mesh or geometry file of JIGSAW; their tags are the
 /// markers.
 /// @throws GeometryError `source:line: ...` for any other text (also for a `.msh` file of Gmsh), or for edges that do
 /// not form rings
-Contour parse_jigsaw(std::string_view text, const std::string& source);
+Contour parse_jigsaw(std::string_view text, const std::string& source, Faults faults = Faults::refuse);
 
 /// @brief Makes a contour from rings that a program has in memory. In messages, vertices are numbered from 1 through
 /// all rings, instead of the lines of a file.

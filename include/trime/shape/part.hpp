@@ -49,6 +49,7 @@ struct TouchOptions {
   bool dissolve = false; ///< polygons of the contour that overlap or share borders are united
   double gap = 0; ///< distance between the separated vertices, if the rings leave room for it; at least 1e-12 of the
                   ///< container
+  contours::Faults faults = contours::Faults::refuse; ///< what happens with faults of the rings
   double widest_gap = 0; ///< with `dissolve`: gaps that polygons enclose between them are closed if they are narrower
 };
 
@@ -69,9 +70,9 @@ public:
   ///
   /// Takes O(M log M) time for M vertices; the test for crossings uses all threads. Where two rings touch at a vertex,
   /// they are separated by a gap of about 1e-12 of the container, or by the gap of `touches`; the area does not cross
-  /// this gap. A ring that occurs twice is used once. A warning reports each of these changes.
+  /// this gap. A ring that occurs twice is used once. A warning reports each of these changes, and each repair.
   /// @throws GeometryError `source:line: ...` if rings cross or overlap along edges, enclose no area, or leave
-  /// frame.reach()
+  /// frame.reach(); the message lists all faults, with those that the reader found
   static Part contour(const std::string& name, const contours::Contour& contour,
                       const contours::Normalization& normalization, const geometry::Frame& frame,
                       const TouchOptions& touches = {});

@@ -249,7 +249,7 @@ TEST(FeatureRings, EndsThatAreNoNumbersAreRefused) {
   rings.add(FeatureRings::Kind::line, {{{nan, 0}, 7}, {{1, 0}, 7}, {{1, 1}, 7}});
   const std::string message = message_of<GeometryError>([&] {
     rings.end_feature();
-    rings.finish("rings");
+    rings.finish("rings", Faults::refuse);
   });
   EXPECT_NE(message.find("a.shp:7: expected finite coordinates"), std::string::npos) << message;
 }
