@@ -63,6 +63,11 @@ std::string ConfigText::value(const std::string& section, const std::string& key
   return found == values_.end() || found->second == "auto" || found->second == "none" ? "" : found->second;
 }
 
+bool ConfigText::has(const std::string& section, const std::string& key) const {
+  const auto found = values_.find({section, key});
+  return found != values_.end() && !found->second.empty() && found->second != "none";
+}
+
 std::optional<double> ConfigText::number(const std::string& section, const std::string& key) const {
   const std::vector<double> numbers = numbers_of(value(section, key));
   return numbers.empty() ? std::nullopt : std::optional(numbers[0]);

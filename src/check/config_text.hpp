@@ -24,6 +24,8 @@ public:
   const std::vector<std::string>& parts() const { return parts_; }
   /// Returns the value of a key; empty if the key is missing or its value is `auto` or `none`.
   std::string value(const std::string& section, const std::string& key) const;
+  /// Returns whether the key has a value other than `none`; it may be `auto`.
+  bool has(const std::string& section, const std::string& key) const;
   std::optional<double> number(const std::string& section, const std::string& key) const;
   bool is_true(const std::string& section, const std::string& key) const { return value(section, key) == "true"; }
   /// @throws Failure (exit 2) if the value is missing or is not two numbers

@@ -2,9 +2,9 @@
 #include "contour_files.hpp"
 
 #include "config_text.hpp"
+#include "map_files.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <array>
 #include <map>
@@ -13,52 +13,6 @@
 
 namespace trime_check {
 namespace {
-
-void add_ring(const nlohmann::json& positions, std::vector<Ring>& rings) {
-  Ring ring;
-  for (const nlohmann::json& position : positions)
-    ring.push_back({position.at(0).get<double>(), position.at(1).get<double>()});
-  if (ring.size() > 1 && ring.front().x == ring.back().x && ring.front().y == ring.back().y)
-    ring.pop_back();
-  rings.push_back(std::move(ring));
-}
-
-/// Adds the rings of polygons. @return whether there are no lines, which would have to be joined first
-bool add_geometry(const nlohmann::json& geometry, std::vector<Ring>& rings) {
-  if (geometry.is_null())
-    return true;
-  const std::string type = geometry.at("type").get<std::string>();
-  if (type == "Polygon") {
-    for (const nlohmann::json& ring : geometry.at("coordinates"))
-      add_ring(ring, rings);
-    return true;
-  }
-  if (type == "MultiPolygon") {
-    for (const nlohmann::json& polygon : geometry.at("coordinates"))
-      for (const nlohmann::json& ring : polygon)
-        add_ring(ring, rings);
-    return true;
-  }
-  return type == "Point" || type == "MultiPoint"; // the mesher leaves these out
-}
-
-ContourRings read_geojson(const std::string& path, const std::string& text) {
-  std::vector<Ring> rings;
-  try {
-    const nlohmann::json json = nlohmann::json::parse(text);
-    bool has_polygons_only = true;
-    if (json.at("type") == "FeatureCollection")
-      for (const nlohmann::json& feature : json.at("features"))
-        has_polygons_only = add_geometry(feature.at("geometry"), rings) && has_polygons_only;
-    else
-      has_polygons_only = add_geometry(json.at("type") == "Feature" ? json.at("geometry") : json, rings);
-    if (!has_polygons_only)
-      return {{}, fmt::format("{}: trime_check reads only polygons of GeoJSON", path)};
-  } catch (const nlohmann::json::exception&) {
-    return {{}, fmt::format("{} cannot be read", path)};
-  }
-  return {std::move(rings), ""};
-}
 
 /// The numbers of the lines that are not empty, without comments.
 std::vector<std::vector<double>> number_rows(const std::string& text) {
@@ -102,7 +56,7 @@ std::optional<std::vector<Ring>> rings_of(const Neighbours& neighbours, const st
 
 /// Triangle's file: a head and vertices, a head and segments; what follows says where the holes are.
 ContourRings read_poly(const std::string& path, const std::string& text) {
-  const ContourRings nothing{{}, fmt::format("{}: trime_check finds no closed rings in its segments", path)};
+  const ContourRings nothing{{}, fmt::format("{}: trime_check finds no closed rings in its segments", path), ""};
   const std::vector<std::vector<double>> rows = number_rows(text);
   const auto count_at = [&](std::size_t row) {
     return row < rows.size() && rows[row][0] >= 0 ? static_cast<std::size_t>(rows[row][0]) : 0;
@@ -127,7 +81,7 @@ ContourRings read_poly(const std::string& path, const std::string& text) {
     }
   }
   std::optional<std::vector<Ring>> rings = rings_of(neighbours, places);
-  return rings ? ContourRings{std::move(*rings), ""} : nothing;
+  return rings ? ContourRings{std::move(*rings), "", ""} : nothing;
 }
 
 } // namespace
@@ -135,7 +89,7 @@ ContourRings read_poly(const std::string& path, const std::string& text) {
 ContourRings read_contour(const std::string& path) {
   const std::optional<std::string> text = read_text(path);
   if (!text)
-    return {{}, fmt::format("{} cannot be read", path)};
+    return {{}, fmt::format("{} cannot be read", path), ""};
   ContourRings found;
   if (path.ends_with(".xy") || path.ends_with(".txt") || path.ends_with(".dat"))
     found.rings = read_rings(*text);
@@ -143,8 +97,10 @@ ContourRings read_contour(const std::string& path) {
     found = read_geojson(path, *text);
   else if (path.ends_with(".poly"))
     found = read_poly(path, *text);
+  else if (path.ends_with(".shp"))
+    found = read_shapefile(path, *text);
   else
-    found.reason = fmt::format("{}: trime_check reads only contours with lines 'x y', GeoJSON and .poly", path);
+    found.reason = fmt::format("{}: trime_check reads only lines 'x y', GeoJSON, shapefiles and .poly", path);
   if (found.reason.empty() && found.rings.empty())
     found.reason = fmt::format("{} has no rings", path);
   return found;

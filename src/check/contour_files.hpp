@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads the rings of contour files: lines 'x y', polygons of GeoJSON, segments of Triangle's .poly.
+// Reads the rings of contour files: lines 'x y', maps, segments of Triangle's .poly.
 #pragma once
 
 #include "curve.hpp"
@@ -12,6 +12,7 @@ namespace trime_check {
 struct ContourRings {
   std::vector<Ring> rings;
   std::string reason; ///< why no ring was read; empty: all are here
+  std::string crs;    ///< name of the reference system in a map; empty: the map has none
 };
 
 /// Reads a contour file by its ending. Rings are as the file has them, without the repeated first vertex.

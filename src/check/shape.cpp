@@ -2,6 +2,7 @@
 #include "shape.hpp"
 
 #include "contour_files.hpp"
+#include "plane.hpp"
 #include "report.hpp"
 
 #include <boost/geometry.hpp>
@@ -18,7 +19,8 @@ namespace {
 
 // Constants from the documentation of the config (configs/shapes.md).
 constexpr double normalized_share = 0.8; // [shorter side of the container] longer side of a normalised contour
-constexpr double margin = 0.05;          // [longer side of the shape] around it, where the container is automatic
+constexpr double bend = 1e-6;   // [longer side of all contours] edges of maps are divided until they follow so far
+constexpr double margin = 0.05; // [longer side of the shape] around it, where the container is automatic
 constexpr Box unit_square{{0, 0}, {1, 1}};
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double box_slack = 1e-12; // [longer side of the container] rounding of what lies in a curve
@@ -53,7 +55,8 @@ struct Source {
   std::vector<Ring> rings; // of all but circles
   Point center;
   double radius = 0;
-  bool normalised = false, has_names = false;
+  bool normalised = false, has_names = false, bent = false;
+  std::string crs; // of a contour, as in its file
 
   Box box() const {
     return type == "circle" ? Box{{center.x - radius, center.y - radius}, {center.x + radius, center.y + radius}}
@@ -62,12 +65,28 @@ struct Source {
 };
 
 bool is_projected(const ConfigText& config) {
-  return !config.value("shape", "projection").empty();
+  return config.has("shape", "projection");
 }
 
-Source read_part(const ConfigText& config, const std::string& name) {
+/// Reads the rings of a contour, and projects them if the config says so.
+void read_rings_of(const ConfigText& config, const std::string& path, const std::string& plane, Source& part) {
+  ContourRings found = read_contour(path);
+  part.rings = std::move(found.rings);
+  part.reason = std::move(found.reason);
+  part.crs = std::move(found.crs);
+  if (!is_projected(config) || !part.reason.empty())
+    return;
+  ProjectedRings projected = project(part.rings, part.crs, plane);
+  part.rings = std::move(projected.rings);
+  part.bent = projected.bent;
+  if (!projected.reason.empty())
+    part.reason = fmt::format("{}: {}", path, projected.reason);
+}
+
+Source read_part(const ConfigText& config, const std::string& name, const std::string& plane) {
   const std::string section = "shape." + name;
-  Source part{name, config.value(section, "type"), "", {}, {}, 0, config.is_true(section, "normalize"), false};
+  Source part{name, config.value(section, "type"),        "",    {},    {},
+              0,    config.is_true(section, "normalize"), false, false, ""};
   const auto number = [&](const char* key) {
     if (const std::optional<double> value = config.number(section, key))
       return *value;
@@ -83,15 +102,10 @@ Source read_part(const ConfigText& config, const std::string& name) {
   } else if (part.type == "contour") {
     const std::string path = config.path(section, "file");
     part.has_names = !path.ends_with(".xy");
-    if (config.value(section, "overlap") == "union" || config.is_true(section, "repair")) {
+    if (config.value(section, "overlap") == "union" || config.is_true(section, "repair"))
       part.reason = fmt::format("{}: trime_check cannot join or repair its rings", path);
-    } else if (is_projected(config)) {
-      part.reason = fmt::format("{}: trime_check cannot project its coordinates", path);
-    } else {
-      ContourRings found = read_contour(path);
-      part.rings = std::move(found.rings);
-      part.reason = std::move(found.reason);
-    }
+    else
+      read_rings_of(config, path, plane, part);
   } else
     part.reason = fmt::format("trime_check cannot compute the curve of a part of type '{}'", part.type);
   return part;
@@ -297,24 +311,47 @@ void set_container(Shape& shape, const ConfigText& config, const std::vector<Sou
                    period("periodic_y", shape.container.max.y - shape.container.min.y)};
 }
 
-/// The fixed points as their file has them.
-void read_fixed_points(Shape& shape, const ConfigText& config) {
+/// The fixed points as their file has them, or projected.
+/// @param from reference system of the file
+void read_fixed_points(Shape& shape, const ConfigText& config, const std::string& from, const std::string& plane) {
   const std::string points = config.path("meshing", "fixed_points");
   if (points.empty())
     return;
   const std::optional<std::string> text = read_text(points);
   if (!text)
     shape.fixed_points_reason = fmt::format("{} cannot be read", points);
-  else if (is_projected(config))
-    shape.fixed_points_reason = fmt::format("{}: trime_check cannot project its coordinates", points);
   if (text)
     for (const Ring& ring : read_rings(*text + "\n"))
       shape.fixed_points.insert(shape.fixed_points.end(), ring.begin(), ring.end());
+  if (!is_projected(config))
+    return;
+  if (std::optional<std::vector<Point>> projected = project(shape.fixed_points, from, plane))
+    shape.fixed_points = std::move(*projected);
+  else
+    shape.fixed_points_reason = fmt::format("{}: a point has no place in the plane of the mesh", points);
+}
+
+/// Reference system of the first contour.
+std::string crs_of(const std::vector<Source>& sources) {
+  const auto contour = std::ranges::find(sources, "contour", &Source::type);
+  return contour == sources.end() ? std::string() : contour->crs;
+}
+
+/// @pre the parts begin with those of the sources
+void set_bends(Shape& shape, const std::vector<Source>& sources) {
+  std::vector<Ring> all;
+  for (const Source& source : sources)
+    if (source.type == "contour")
+      all.insert(all.end(), source.rings.begin(), source.rings.end());
+  const Box box = box_of(all);
+  for (std::size_t k = 0; k < sources.size(); ++k)
+    if (sources[k].bent)
+      shape.parts[k].bend = bend * std::max(box.max.x - box.min.x, box.max.y - box.min.y);
 }
 
 /// Appends the part of a source, and normalises the fixed points if they go with it.
 void add_part(Shape& shape, const Source& source, bool has_fixed_points) {
-  Part part{source.name, nullptr, source.reason, source.has_names};
+  Part part{source.name, nullptr, source.reason, 0, source.has_names};
   std::vector<Ring> rings = source.rings;
   if (source.normalised && source.reason.empty()) {
     const Normalisation fit(source.box(), shape.container);
@@ -334,7 +371,7 @@ void add_part(Shape& shape, const Source& source, bool has_fixed_points) {
 
 } // namespace
 
-Shape make_shape(const ConfigText& config, const std::vector<Point>& mesh) {
+Shape make_shape(const ConfigText& config, const std::vector<Point>& mesh, const std::string& plane) {
   Shape shape;
   std::string region = config.value("shape", "geometry");
   if (region.empty())
@@ -344,16 +381,17 @@ Shape make_shape(const ConfigText& config, const std::vector<Point>& mesh) {
   std::vector<Source> sources;
   for (const std::string& name : config.parts()) {
     shape.numbers.emplace(name, sources.size());
-    sources.push_back(read_part(config, name));
+    sources.push_back(read_part(config, name, plane));
   }
   shape.numbers.emplace("domain", sources.size());
   shape.region = std::make_unique<Region>(region, shape.numbers);
   set_container(shape, config, sources, mesh);
-  read_fixed_points(shape, config);
+  read_fixed_points(shape, config, crs_of(sources), plane);
   const std::string companion = config.value("meshing", "fixed_points_normalize_with");
   for (const Source& source : sources)
     add_part(shape, source, source.name == companion);
-  shape.parts.push_back({"domain", make_container(shape.container, shape.periods), "", false});
+  set_bends(shape, sources);
+  shape.parts.push_back({"domain", make_container(shape.container, shape.periods), "", 0, false});
   shape.finder = std::make_unique<PartFinder>(shape.parts);
   return shape;
 }

@@ -15,6 +15,7 @@ struct Part {
   std::string name;
   std::unique_ptr<Curve> curve; ///< empty for a formula, or for a kind of file that trime_check cannot read
   std::string reason;           ///< why there is no curve
+  double bend = 0;              ///< the boundary may be so far from the curve, because edges of maps are curves
   bool has_names = false;       ///< whether its file can give names or markers to pieces of the curve
 };
 
@@ -76,7 +77,8 @@ private:
 
 /// @param mesh points of the mesh; their bounding box replaces a container that depends on files that trime_check
 /// cannot read
+/// @param plane reference system of the mesh, into which contours are projected if the config says so
 /// @throws Failure (exit 2) if the config is incomplete
-Shape make_shape(const ConfigText& config, const std::vector<Point>& mesh);
+Shape make_shape(const ConfigText& config, const std::vector<Point>& mesh, const std::string& plane);
 
 } // namespace trime_check

@@ -66,7 +66,8 @@ std::vector<Point> fixed_vertices(const Mesh& mesh) {
 class ShapeChecks {
 public:
   ShapeChecks(const StoredFile& file, const Mesh& mesh, const ConfigText& config, Report& report)
-      : file_(file), mesh_(mesh), config_(config), report_(report), shape_(make_shape(config, mesh.points)),
+      : file_(file), mesh_(mesh), config_(config), report_(report),
+        shape_(make_shape(config, mesh.points, file.text_attribute("/trime_mpi", "crs").value_or(""))),
         fixed_(fixed_vertices(mesh), shape_) {}
 
   void run() {
@@ -229,7 +230,7 @@ private:
       if (strict ? !part->curve : !reason.empty())
         continue;
       ++judged;
-      const double limit = on_curve * shape_.side() + (strict ? 0 : within * mesh_.asked_sizes[k]);
+      const double limit = on_curve * shape_.side() + part->bend + (strict ? 0 : within * mesh_.asked_sizes[k]);
       const bool strays = std::ranges::any_of(
           mesh_.facets[k], [&](std::int64_t id) { return distance_of(*part, mesh_.at(id)) > limit; });
       check_ends(k, *part, limit, !strict || (strays && across-- > 0), off);

@@ -2,9 +2,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests trime_check on shapes: it passes good meshes of unusual shapes, and finds meshes that belong to another
 config."""
+import json
 import math
 import pathlib
 import re
+import subprocess
 import tempfile
 import unittest
 
@@ -152,9 +154,40 @@ class Shapes(unittest.TestCase):
                     self.assertRegex(text, rf"(?m)^ok +{name} ")
                 self.finds(["uncovered_places"] + (["uncovered_curves"] if ending == "poly" else []), path,
                            self.config("other", contour(f"other.{ending}")))
-        lines = self.config("lines", contour("lines.geojson"),
-                            files={"lines.geojson": geojson(SQUARE + SQUARE[:1], kind="LineString")})
-        self.assertRegex(self.passes(self.mesh(lines), lines), "reads only polygons of GeoJSON")
+
+    def test_maps_in_degrees(self):
+        """Polygons, lines and shapefiles in longitude and latitude; long edges are curves in the plane."""
+        bay = [[4, 60], [6, 60], [6, 61], [4, 61], [4, 60]]
+        isle, other = ([[x + 5, y + 60.5] for x, y in ring] for ring in (
+            ([0, 0], [0.2, 0.1], [0, 0.2], [0, 0]), ([0, 0], [0.2, 0.1], [0.05, 0.2], [0, 0])))
+        maps = {"polygon": {"type": "Polygon", "coordinates": [bay, isle]},
+                "lines": {"type": "MultiLineString", "coordinates": [bay[:3], bay[2:], isle]},
+                "other": {"type": "Polygon", "coordinates": [bay, other]}}
+        for name, geometry in maps.items():
+            (self.work / f"{name}.geojson").write_text(json.dumps(geometry))
+        subprocess.run(["ogr2ogr", "-t_srs", "EPSG:32631", self.work / "utm.shp", self.work / "polygon.geojson"],
+                       check=True, timeout=60)
+        subprocess.run(["ogr2ogr", self.work / "degrees.shp", self.work / "lines.geojson"], check=True, timeout=60)
+        (self.work / "fixed.xy").write_text("4.5 60.5\n")
+        meshing = "points = 700\nkeep_features = true\nfixed_points = fixed.xy\n"
+        configs = {}
+        for file in ("polygon.geojson", "lines.geojson", "degrees.shp", "utm.shp", "other.geojson"):
+            name, ending = file.split(".")
+            configs[file] = self.config(f"{name}_{ending}", contour(file), "a\nprojection = auto",
+                                        meshing=meshing[:meshing.index("fixed")] if name == "utm" else meshing)
+            path = self.mesh(configs[file])
+            text = self.passes(path)
+            for check_name in ("container", "lattice", "fixed_points", "corners", "on_curve", "outside",
+                               "uncovered_curves", "uncovered_places"):
+                self.assertRegex(text, rf"(?m)^ok +{check_name} ")
+        mesh = self.work / "polygon_geojson.h5"
+        self.finds(["corners", "on_curve"], mesh, configs["other.geojson"])
+        plane = h5py.File(mesh)["trime_mpi"].attrs["crs"].decode()
+        named = self.config("named", contour("degrees.shp"), f"a\nprojection = {plane}", meshing=meshing)
+        self.passes(mesh, named)
+        code, text = check(mesh, self.config("utm_read", contour("utm.shp"), "a\nprojection = auto"))
+        self.assertEqual(code, 5, text)  # edges that are straight in UTM are curves in degrees
+        self.assertEqual(re.findall(r"(?m)^WRONG +(\S+)", text), ["fixed_inside", "on_curve"])  # no fixed points
 
     def test_loops_that_were_dropped(self):
         """The report says that curves have no facets there."""

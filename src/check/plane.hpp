@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Projects the rings of maps into the plane of a mesh, by means of PROJ.
+#pragma once
+
+#include "config_text.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace trime_check {
+
+/// Rings in the plane. Edges are straight in the coordinates of the file, so those that are curves in the plane have
+/// more vertices than in the file.
+struct ProjectedRings {
+  std::vector<Ring> rings;
+  bool bent = false;  ///< whether an edge was divided
+  std::string reason; ///< why the rings cannot be projected; empty: they are here
+};
+
+/// @param from reference system of the rings; empty: longitude and latitude in degrees on WGS 84
+/// @param to reference system of the plane
+ProjectedRings project(const std::vector<Ring>& rings, const std::string& from, const std::string& to);
+
+/// Returns the points in the plane, or nothing if one of them has no place there.
+std::optional<std::vector<Point>> project(const std::vector<Point>& points, const std::string& from,
+                                          const std::string& to);
+
+} // namespace trime_check
