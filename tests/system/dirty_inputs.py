@@ -81,6 +81,7 @@ READ = [
      HOLED),
     ("vertices twice", "a.poly", POLY.replace("8 2 0 0", "9 2 0 0").replace("8 0.4 0.6\n", "8 0.4 0.6\n9 0.1 0.1\n")
      .replace("4 4 1 1\n", "4 4 9 1\n"), HOLED),
+    ("line inside", "a.poly", POLY.replace("8 1\n", "9 1\n").replace("1\n1 0.5", "9 1 5 0\n1\n1 0.5"), HOLED),
     ("plain", "a.msh", MSH, WHOLE),
     ("sections that do not matter, capitals", "a.msh",
      MSH.replace("edge2", "EDGE2") + "tria3=1\n0;1;2;0\nvalue=4;1\n1\n1\n1\n1\n", WHOLE),
@@ -105,8 +106,6 @@ REFUSED = [
      r"a\.poly:19: expected vertices from 1 to 8"),
     ("open ring", "a.poly", POLY.replace("8 1\n1", "7 1\n1", 1).replace("8 8 5 7\n", ""), GEOMETRY,
      r"a\.poly:\d+: 1 segment ends at vertex [58]"),
-    ("line inside", "a.poly", POLY.replace("8 1\n", "9 1\n").replace("1\n1 0.5", "9 1 5 0\n1\n1 0.5"), GEOMETRY,
-     r"a\.poly:\d+: 3 segments meet at vertex"),
     ("too short", "a.poly", POLY[:60], GEOMETRY, r"a\.poly:\d+: expected .*vertex|a\.poly:\d+: expected vertex"),
     ("space", "a.poly", POLY.replace("8 2 0 0", "8 3 0 0"), GEOMETRY, r"a\.poly:2: expected a plane \.poly"),
     ("no .node", "a.poly", "0 2 0 0\n" + POLY[POLY.index("8 1\n"):], FILE, r"a\.node.*itself has no vertices"),
@@ -116,4 +115,25 @@ REFUSED = [
     ("too few rows", "a.msh", MSH.replace("edge2=4", "edge2=5"), GEOMETRY, r"a\.msh:\d+: expected edge 5 of 5"),
     ("no shapefile", "a.shp", "0 0\n1 0\n1 1\n", FILE, r"a\.shx.*NAME\.shp and NAME\.shx"),
     ("another format", "a.dxf", "0\nSECTION\n", USAGE, r"a\.dxf: .*ogr2ogr"),
+]
+
+# What has no area: (what, file, text, area of the shape after the repair, what the message says without the repair)
+ROAD = json.dumps({"type": "FeatureCollection", "features": [
+    {"type": "Feature", "properties": {}, "geometry": json.loads(geojson(SQUARE + SQUARE[:1]))},
+    {"type": "Feature", "properties": {"name": "road"},
+     "geometry": {"type": "LineString", "coordinates": [[0.2, 0.2], [0.8, 0.7]]}}]})
+REPAIRED = [
+    ("a ring of one place", "a.geojson", geojson(SQUARE + SQUARE[:1], ["0.5 0.5"] * 4), WHOLE, r"distinct vert(ex|ices)"),
+    ("a ring on one line", "a.xy", xy(SQUARE, ["0.3 0.5", "0.5 0.5", "0.7 0.5"]), WHOLE, "encloses no area"),
+    ("a spike", "a.xy", xy(SQUARE[:2] + ["0.9 0.5", "1.2 0.5", "0.9 0.5"] + SQUARE[2:]), WHOLE, "straight back"),
+    ("a keyhole", "a.xy", xy(SQUARE + ["0.1 0.5", "0.4 0.5", "0.4 0.6", "0.6 0.6", "0.6 0.4", "0.4 0.4", "0.4 0.5",
+                                       "0.1 0.5"]), HOLED, "in both directions"),
+    ("a road", "a.geojson", ROAD, WHOLE, "end where they start"),
+    ("a third column", "a.xy", xy([line + " 0" for line in SQUARE]), WHOLE, "third column"),
+]
+# (what, file, text): what has area, or may have it, is refused with `repair = true` as well.
+NOT_REPAIRED = [
+    ("a figure eight", "a.xy", xy([SQUARE[0], SQUARE[2], SQUARE[1], SQUARE[3]])),
+    ("a ring with a gap", "a.geojson", geojson(SQUARE + ["0.1 0.15"], kind="LineString")),
+    ("rings that cross", "a.xy", xy(SQUARE, ["0.5 0.5", "1.5 0.5", "0.5 0.8"])),
 ]

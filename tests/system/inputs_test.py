@@ -19,7 +19,8 @@ import numpy
 import scipy.spatial
 from osgeo import osr
 
-from dirty_inputs import FILE, GEOMETRY, HOLE, HOLED, POLY, READ, REFUSED, SQUARE, USAGE, geojson, xy
+from dirty_inputs import (FILE, GEOMETRY, HOLE, HOLED, NOT_REPAIRED, POLY, READ, REFUSED, REPAIRED, SQUARE, USAGE,
+                          geojson, xy)
 from rough_coast import rough_coast
 from tiled_country import Country, as_geojson, name_of
 from trime_run import Workspace, run
@@ -27,6 +28,7 @@ from trime_run import Workspace, run
 osr.UseExceptions()
 
 CONFIG = "[shape]\ngeometry = land\n[shape.land]\ntype = contour\nfile = {}\n[meshing]\npoints = {}\n"
+FAULTS = re.compile(r"found (\d+) faults")  # the first line of a message that lists a few
 
 
 def gdal(*arguments):
@@ -83,14 +85,14 @@ def fourfold(line):
 class DirtyInputs(unittest.TestCase):
     """On 1 and 3 ranks the same words."""
 
-    def validated(self, name, text):
+    def validated(self, name, text, *options):
         """Returns what the program prints for a contour, on 1 and 3 ranks."""
         said = []
         with Workspace() as work:
             (work / name).write_bytes(text if isinstance(text, bytes) else text.encode())
             (work / "case.ini").write_text(CONFIG.format(name, 500))
             for ranks in (1, 3):
-                done = run(work / "case.ini", "--validate", ranks=ranks, cwd=work)
+                done = run(work / "case.ini", "--validate", *options, ranks=ranks, cwd=work)
                 shape = [line for line in done.stdout.splitlines() if line.startswith("shape:")]
                 told = [line.replace(str(work), "") for line in (done.stderr + done.stdout).splitlines()
                         if ("warning" in line or "error" in line) and "share their cores" not in line]
@@ -113,8 +115,41 @@ class DirtyInputs(unittest.TestCase):
         for (what, name, _, code, message), (found, _, told) in zip(REFUSED, self.all_validated(REFUSED)):
             with self.subTest(what=what, file=name):
                 self.assertEqual(found, code, told)
-                self.assertEqual(len(told), 1, told)
-                self.assertRegex(told[0], message)
+                self.assertEqual(len(told), 1 if len(told) == 1 else 1 + int(FAULTS.search(told[0])[1]), told)
+                self.assertRegex("\n".join(told), message)
+
+    def test_what_has_no_area_is_listed_or_left_out(self):
+        for what, name, text, area, words in REPAIRED:
+            with self.subTest(what):
+                code, _, told = self.validated(name, text)
+                self.assertEqual(code, GEOMETRY, told)
+                self.assertRegex("\n".join(told), words)
+                self.assertIn("repair = true", "\n".join(told))
+                code, shape, told = self.validated(name, text, "shape.land.repair=true")
+                self.assertEqual(code, 0, told)
+                self.assertRegex("\n".join(told), rf"warning: .*{re.escape(name)}")
+                self.assertAlmostEqual(fourfold(shape[0])[0], area, 9)
+
+    def test_what_has_area_is_never_left_out(self):
+        for what, name, text in NOT_REPAIRED:
+            with self.subTest(what):
+                code, _, told = self.validated(name, text, "shape.land.repair=true")
+                self.assertEqual(code, GEOMETRY, told)
+                self.assertRegex(told[0], rf"error: .*{re.escape(name)}")
+
+    def test_all_faults_are_in_one_message(self):
+        spikes = [line for k in range(1, 13) for line in (f"{0.07 * k:.2f} 0", f"{0.07 * k:.2f} -0.2",
+                                                          f"{0.07 * k:.2f} 0")]
+        text = xy(["0 0", *spikes, "1 0", "1 1", "0 1"])
+        with Workspace() as work:
+            (work / "a.xy").write_text(text)
+            (work / "case.ini").write_text(CONFIG.format("a.xy", 500))
+            refused = run(work / "case.ini", "--validate", cwd=work)
+        self.assertEqual(refused.returncode, GEOMETRY, refused.stderr)
+        self.assertEqual(refused.stderr.count("straight back"), 10, refused.stderr)
+        self.assertIn("found 12 faults", refused.stderr)
+        self.assertIn("and 2 more", refused.stderr)
+        self.assertEqual(self.validated("a.xy", text, "shape.land.repair=true")[0], 0)
 
     def test_there_are_thirty(self):
         self.assertGreaterEqual(len(READ) + len(REFUSED), 30)

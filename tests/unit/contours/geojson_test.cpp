@@ -154,7 +154,7 @@ TEST(GeoJson, MistakesAreLocated) {
   expect(geometry_of("Polygon", "[[[0, 0], [1, 0], [0, 0]]]"), "a.geojson:2: ", "2 distinct vertices");
   expect(geometry_of("Polygon", "[[[0, 0],\n\n[1e31, 0], [0, 1]]]"), "a.geojson:4: ", "1e+31");
   expect(geometry_of("LineString", "[[0, 0], [1, 0],\n[0, 1]]"),
-         "a.geojson:2: ", "whose end at (0, 0) no other line shares: close the ring, or make it a polygon");
+         "a.geojson:2: ", "whose end at (0, 0) no other line shares; close the ring, or make it a polygon");
   expect(geometry_of("Point", "[0, 0]"), "a.geojson: ", "found no vertex at all");
   expect("[1, 2]", "a.geojson: ", "found no vertex at all");
   expect("{\"type\": \"Topology\", \"arcs\": [[[0, 0], [1, 1]]]}", "a.geojson: ", "Polygon or MultiPolygon");
