@@ -369,6 +369,30 @@ std::string Placement::other_edge(const std::array<int, 2>& lines) const {
   return (contour_.features.empty() ? "the edge that starts at " : "an edge of ") + line_or_feature(contour_, lines[1]);
 }
 
+/// Returns whether a ring of longitudes and latitudes jumps from one side of the meridian of 180 degrees to the other.
+bool crosses_date_line(const std::vector<Vec2>& ring) {
+  bool jumps = false;
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const Vec2 here = ring[k], next = ring[k + 1 < ring.size() ? k + 1 : 0];
+    if (std::fabs(here.x) > 360 || std::fabs(here.y) > 90)
+      return false;
+    jumps = jumps || std::fabs(here.x - next.x) > 180;
+  }
+  return jumps;
+}
+
+/// Returns what a user can do where edges of a file of lines meet.
+/// @param same both edges belong to one ring
+const char* remedy_of_lines(bool same, bool crossing) {
+  if (same)
+    return crossing ? "a ring must not cross itself; is a blank line between two rings missing?"
+                    : "a ring touches itself; is a blank line between two rings missing?";
+  return crossing ? "two rings must not cross; to join areas, make each one a separate part and unite them in "
+                    "'geometry', or dissolve their common borders first, as QGIS does"
+                  : "two rings touch or overlap along an edge, or cross at a vertex; make each one a separate part and "
+                    "unite them in 'geometry', or dissolve their common borders first, as QGIS does";
+}
+
 contours::Fault Placement::fault_of(const SegmentGrid& grid, const SegmentPair& pair) const {
   const Segment &s = grid.segments()[at(pair[0])], &t = grid.segments()[at(pair[1])];
   const auto [first_ring, line] = ring_and_line_of(pair[0]);
@@ -377,16 +401,14 @@ contours::Fault Placement::fault_of(const SegmentGrid& grid, const SegmentPair& 
   const bool is_map = contour_.is_map,
              one_polygon = rings_[first_ring].polygon == rings_[second_ring].polygon && rings_[first_ring].polygon != 0;
   const char* remedy =
-      !same && one_polygon ? "rings of one polygon must not cross; ogr2ogr -makevalid may repair it"
-      : !same && is_map    ? "polygons of a map must neither overlap nor share borders; set 'overlap = union' in the "
-                             "section of this contour to unite them"
-      : same && is_map     ? "a ring must neither cross nor touch itself; ogr2ogr -makevalid may repair it"
-      : same && crossing   ? "a ring must not cross itself; is a blank line between two rings missing?"
-      : same               ? "a ring touches itself; is a blank line between two rings missing?"
-      : crossing           ? "two rings must not cross; to join areas, make each one a separate part and unite them in "
-                             "'geometry', or dissolve their common borders first, as QGIS does"
-                           : "two rings touch or overlap along an edge, or cross at a vertex; make each one a separate "
-                             "part and unite them in 'geometry', or dissolve their common borders first, as QGIS does";
+      is_map && crosses_date_line(rings_[first_ring].points)
+          ? "the ring seems to cross the meridian of 180 degrees; set 'projection = auto' in [shape], which joins both "
+            "sides"
+      : is_map && same        ? "a ring must neither cross nor touch itself; ogr2ogr -makevalid may repair it"
+      : is_map && one_polygon ? "rings of one polygon must not cross; ogr2ogr -makevalid may repair it"
+      : is_map ? "polygons of a map must neither overlap nor share borders; set 'overlap = union' in the "
+                 "section of this contour to unite them"
+               : remedy_of_lines(same, crossing);
   return {where(contour_, line),
           fmt::format("{} {} {} near {}", contour_.features.empty() ? "the edge that starts here" : "an edge",
                       crossing ? "crosses" : "touches", other_edge({line, other_line}), in_file(meeting_point(s, t))),

@@ -123,7 +123,8 @@ ROAD = json.dumps({"type": "FeatureCollection", "features": [
     {"type": "Feature", "properties": {"name": "road"},
      "geometry": {"type": "LineString", "coordinates": [[0.2, 0.2], [0.8, 0.7]]}}]})
 REPAIRED = [
-    ("a ring of one place", "a.geojson", geojson(SQUARE + SQUARE[:1], ["0.5 0.5"] * 4), WHOLE, r"distinct vert(ex|ices)"),
+    ("a ring of one place", "a.geojson", geojson(SQUARE + SQUARE[:1], ["0.5 0.5"] * 4), WHOLE,
+     r"distinct vert(ex|ices)"),
     ("a ring on one line", "a.xy", xy(SQUARE, ["0.3 0.5", "0.5 0.5", "0.7 0.5"]), WHOLE, "encloses no area"),
     ("a spike", "a.xy", xy(SQUARE[:2] + ["0.9 0.5", "1.2 0.5", "0.9 0.5"] + SQUARE[2:]), WHOLE, "straight back"),
     ("a keyhole", "a.xy", xy(SQUARE + ["0.1 0.5", "0.4 0.5", "0.4 0.6", "0.6 0.6", "0.6 0.4", "0.4 0.4", "0.4 0.5",

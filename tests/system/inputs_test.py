@@ -577,6 +577,15 @@ class Maps(unittest.TestCase):
                 width = numpy.ptp(file["Mesh/mesh/geometry"][:, 0])
             self.assertAlmostEqual(width / (2 * 111320 * math.cos(math.radians(16.5))), 1, delta=0.01)
 
+    def test_a_ring_across_the_date_line_without_projection(self):
+        with Workspace() as work:
+            (work / "a.geojson").write_text(geojson(["179 -17", "-179 -17", "-179 -16", "-179.5 -17.5", "179 -16"]))
+            (work / "case.ini").write_text(CONFIG.format("a.geojson", 500))
+            refused = run(work / "case.ini", "--validate", cwd=work)
+        self.assertEqual(refused.returncode, GEOMETRY, refused.stderr)
+        self.assertIn("set 'projection = auto' in [shape]", refused.stderr)
+        self.assertNotIn("makevalid", refused.stderr)
+
     def test_polygons_that_are_cut_at_the_date_line_are_joined(self):
         def polygon(*rings):
             return {"type": "Polygon", "coordinates": [[[x, y] for x, y in ring + ring[:1]] for ring in rings]}
