@@ -65,7 +65,8 @@ public:
   /// Exponents may be written with e or d (Fortran). A number that is too small for double precision counts as 0.
   /// @throws GeometryError `source:line: ...` that says how to correct the line
   std::optional<geometry::Vec2> read(std::string_view line, int number);
-  /// The same, but a line that holds anything else becomes a fault, and the result is empty.
+  /// Reads a line as the other function does, but a line that holds anything else becomes a fault, and the result is
+  /// empty.
   std::optional<geometry::Vec2> read(std::string_view line, int number, FaultList& faults);
   /// Returns warnings for the user about a skipped line of column names.
   const std::vector<std::string>& warnings() const { return warnings_; }

@@ -53,7 +53,7 @@ private:
     std::vector<FilePoint> vertices;
     int polygon = 0;        // 0 for lines
     std::string label = {}; // text for messages about an open line
-    int feature = 0;        // number of the feature of an open line; 0 if there is none
+    int feature = 0;        // number of the feature of an open line; 0 if it has no feature
   };
 
   void note_feature(const FeatureName& feature);

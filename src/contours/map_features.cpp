@@ -21,7 +21,7 @@ const MapFeature* feature_of(const Contour& contour, int line) {
 }
 
 std::string named(int number, const std::string& name) {
-  return name.empty() ? fmt::format("feature {}", number) : fmt::format("feature {}, {}", number, quoted(name));
+  return name.empty() ? fmt::format("feature {}", number) : fmt::format("feature {}, {}", number, trime::quoted(name));
 }
 
 std::string lower(std::string_view text) {

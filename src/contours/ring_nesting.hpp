@@ -39,7 +39,7 @@ public:
     tree_ = geometry::BoxTree(boxes);
   }
 
-  /// Does the ring run around p? O(log(edges) + those right of p).
+  /// Returns whether the ring runs around p. O(log(edges) + those right of p).
   bool enclose(geometry::Vec2 p) const {
     const double rounding = 1e-12 * std::fmax(std::fabs(whole_.min.x), std::fabs(whole_.max.x));
     bool inside = false;
@@ -98,7 +98,7 @@ private:
   std::vector<RingEdges> edges_;
   std::vector<double> areas_;
   std::vector<std::size_t> rank_; // by area
-  geometry::BoxTree tree_;        // of the boxes of the rings
+  geometry::BoxTree tree_;        // a tree of the boxes of the rings
 };
 
 } // namespace trime::contours

@@ -191,7 +191,7 @@ void add_faults(FaultList& faults, const RepairedRing& repaired, const ContourRi
       return {
           where,
           fmt::format("the ring runs along an edge in both directions near {}, as if to reach an inner ring", place),
-          "make the inner ring a ring of its own", "the two edges are removed"};
+          "make the inner ring a separate ring", "the two edges are removed"};
     });
 }
 
