@@ -138,9 +138,9 @@ const Option table[] = {
      .part_type = "contour",
      .kind = OptionKind::boolean,
      .fallback = "false",
-     .meaning = "true: what has no area is left out of the contour, and warnings list it: rings of fewer than three "
-                "different vertices, spikes, two edges that cancel each other, open lines of a map, a third column of "
-                "numbers. false: the file is refused, and the message lists all faults"},
+     .meaning = "true: what has no area is left out of the contour, and warnings list it: spikes, rings of fewer than "
+                "three different vertices, two edges that cancel each other, open lines of a map, a third column. "
+                "False: the file is refused, and the message lists all faults"},
     {.section = "shape.NAME",
      .key = "normalize",
      .part_type = "contour",
