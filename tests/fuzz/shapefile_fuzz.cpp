@@ -24,6 +24,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   write(".shx", data[2] + 256U * data[3]);
   write(".dbf", rest.size());
   for (const char* attribute : {"", "kind"})
-    fuzz::survives([&] { fuzz::use(contours::read_shapefile(stem + ".shp", "", attribute)); });
+    fuzz::survives(
+        [&] { fuzz::use(contours::read_shapefile(stem + ".shp", "", attribute, contours::Faults::repair)); });
   return 0;
 }
