@@ -67,7 +67,7 @@ struct Contour {
   bool is_map =
       false; ///< true if the rings come from a map: there may be several polygons, and coordinates may be degrees
   bool in_degrees = false; ///< true if ContourRing::in_file holds longitudes and latitudes
-  FaultList faults{}; ///< faults that the reader has found; what is faulty is not in `rings`
+  FaultList faults{};      ///< faults that the reader has found; what is faulty is not in `rings`
 };
 
 /// @brief Reads the rings of a file. The ending of its name decides the format: `.poly` (Triangle), `.shp` (ESRI),
