@@ -20,7 +20,7 @@ namespace {
 // [h] Where nothing is simplified, rings that touch are separated by this: triangles around the gap are about as small.
 constexpr double kept_gap = 0.1;
 // [h] Gaps between united polygons that are narrower are closed: they come from polygons that were digitised one by
-// one.
+// one. Not measured.
 constexpr double closed_gap = 0.01;
 
 std::string hint_of(bool is_relative) {
@@ -123,8 +123,11 @@ shape::TouchOptions touch_options(const RunOptions& options, const PartOptions& 
   const double h = options.mesh.edge_length.value_or(fitting::estimated_size(
       container.width() * container.height(), 0, static_cast<double>(options.mesh.points.value_or(1000))));
   const bool keeps_all = features.keep_all || !(features.within > 0); // nothing widens a gap later
-  return {outside, part.dissolve, keeps_all ? kept_gap * h : 0, faults_of(part),
-          features.keep_all ? 0 : closed_gap * h};
+  return {.outside = outside,
+          .dissolve = part.dissolve,
+          .gap = keeps_all ? kept_gap * h : 0,
+          .faults = faults_of(part),
+          .widest_gap = features.keep_all ? 0 : closed_gap * h};
 }
 
 /// @param contour of a part that is one @param place what its vertices undergo

@@ -69,6 +69,17 @@ void add_fault(FaultList& faults, HasArea has_area, const std::function<Fault()>
     faults.first.push_back(make());
 }
 
+void add_faults(FaultList& faults, const FaultList& more) {
+  FaultList others = more; // those that are not listed
+  for (const Fault& fault : more.first) {
+    const HasArea has_area = fault.repaired.empty() ? HasArea::yes : HasArea::no;
+    --(has_area == HasArea::yes ? others.others : others.repairable);
+    add_fault(faults, has_area, [&] { return fault; });
+  }
+  faults.repairable += others.repairable;
+  faults.others += others.others;
+}
+
 void check_faults(const FaultList& faults, const std::string& source, Faults treatment) {
   if (faults.others > 0 || (faults.repairable > 0 && treatment != Faults::repair))
     refuse(faults, source, treatment);

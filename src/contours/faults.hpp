@@ -11,12 +11,15 @@
 
 namespace trime::contours {
 
-/// Whether the area of a fault is zero, so that a repair leaves it out.
+/// Says whether a fault has an area. A repair leaves out what has none.
 enum class HasArea { no, yes };
 
 /// @brief Counts a fault, and adds it to the list if it is one of the first of its kind.
 /// @param make makes the fault; called only if the list takes it
 void add_fault(FaultList& faults, HasArea has_area, const std::function<Fault()>& make);
+
+/// Appends faults to a list. It keeps their numbers, and the first ones of each kind.
+void add_faults(FaultList& faults, const FaultList& more);
 
 /// @brief Throws if the treatment does not allow the faults.
 /// @throws GeometryError `source:line: ...` for one fault; for several ones a text of several lines

@@ -62,8 +62,8 @@ public:
       left_[line] = 0;
       out.push_back(line);
       for (const std::size_t node : nodes_[line]) {
-        --degree_[node];
-        again.insert(again.end(), arms_[node].begin(), arms_[node].end());
+        if (--degree_[node] == 1) // the last line has a free end now
+          again.insert(again.end(), arms_[node].begin(), arms_[node].end());
       }
     }
     std::sort(out.begin(), out.end());
@@ -88,7 +88,7 @@ private:
   std::vector<char> left_;
 };
 
-/// Are the two free ends of the group near each other?
+/// Returns whether the group has two free ends that are near each other.
 bool is_nearly_closed(const std::vector<LineEnds>& lines, const std::vector<std::size_t>& group,
                       const std::vector<Vec2>& free_ends) {
   if (free_ends.size() != 2)
@@ -120,10 +120,10 @@ std::vector<OpenGroup> open_groups(const std::vector<LineEnds>& lines) {
       is_open = true;
     };
     ends.for_each_end(group, [&](std::size_t line, const FilePoint& end, std::size_t degree) {
-      if (degree == 1)
-        free_ends.push_back(end.position);
-      if (degree == 1)
-        note(line, end);
+      if (degree != 1)
+        return;
+      free_ends.push_back(end.position);
+      note(line, end);
     });
     found.nearly_closed = is_nearly_closed(lines, group, free_ends);
     found.left_out = ends.take_free(group);

@@ -55,6 +55,8 @@ bool is_collinear(const std::vector<Vec2>& p) {
   return true;
 }
 
+constexpr double half_turn = 180; // [degrees] an edge that is wider leads across the date line
+
 /// Does the ring turn straight back at a vertex?
 bool has_spike(const std::vector<Vec2>& p) {
   const std::size_t n = p.size();
@@ -88,9 +90,8 @@ public:
     SegmentGrid grid(segments_of(rings_));
     const std::vector<int> markers = markers_of_segments();
     const SegmentGrid given = markers.empty() ? SegmentGrid{} : grid;
-    if (const std::vector<SegmentPair> meetings = find_meetings(rings_, grid); !meetings.empty()) {
+    if (const std::vector<SegmentPair> meetings = find_meetings(rings_, grid); !meetings.empty())
       separate(meetings, grid, warnings);
-    }
     check_faults();
     contours::tell_repaired(faults_, contour_.source, warnings);
     Polygon polygon;
@@ -124,6 +125,7 @@ private:
   void repair_self_meetings(const std::vector<SegmentPair>& meetings);
   void list_meetings(const SegmentGrid& grid, std::span<const SegmentPair> pairs, bool within_rings);
   void explain(const std::vector<SegmentPair>& meetings);
+  bool list_seams_in_file();
   std::pair<std::size_t, int> ring_and_line_of(LocalIndex segment) const;
   contours::Fault fault_of(const SegmentGrid& grid, const SegmentPair& pair) const;
   contours::PlaceText place_text() const;
@@ -155,7 +157,6 @@ std::vector<int> Placement::markers_of_segments() const {
 
 /// A place in the coordinates of the file; where these are projected, that of the nearest place on an edge. O(vertices)
 std::string Placement::in_file(Vec2 p) const {
-  constexpr double half_turn = 180; // an edge that is wider leads across the date line
   Vec2 original = normalization_.undo(p);
   double least = HUGE_VAL;
   for (const contours::ContourRing& ring : contour_.rings)
@@ -280,32 +281,41 @@ void Placement::separate(const std::vector<SegmentPair>& meetings, SegmentGrid& 
     } else if (gap == least) {
       rings_ = given;
       explain(meetings);
+      check_faults();
       return;
     }
   }
 }
 
-/// Lists why rings meet that cannot be separated: what has no area, and then all meetings that are left without it.
+/// @brief Lists why rings meet that cannot be separated: what has no area, and then all meetings that are left without
+/// it. A repair has left out before what has no area, so that only meetings are listed then. Afterwards there are
+/// faults for which check_faults throws, because the rings are no longer those of the contour.
 void Placement::explain(const std::vector<SegmentPair>& meetings) {
-  const std::uint64_t before = faults_.repairable;
-  repair_self_meetings(meetings);
   bool within_rings = true;
-  if (faults_.repairable == before && touches_.faults != contours::Faults::repair) {
-    contours::Contour in_file = contour_; // where a projection has moved the two edges apart
-    std::erase_if(in_file.rings, [](const contours::ContourRing& ring) { return ring.in_file.empty(); });
-    for (contours::ContourRing& ring : in_file.rings)
-      ring.points = std::exchange(ring.in_file, {});
-    in_file.faults = {};
-    contours::repair_rings(in_file);
-    within_rings = in_file.faults.empty();
-    for (contours::Fault& fault : in_file.faults.first)
-      contours::add_fault(faults_, contours::HasArea::no, [&] { return std::move(fault); });
+  if (touches_.faults != contours::Faults::repair) {
+    const std::uint64_t before = faults_.repairable;
+    repair_self_meetings(meetings);
+    if (faults_.repairable == before)
+      within_rings = !list_seams_in_file();
   }
   const SegmentGrid grid(segments_of(rings_));
   part_touches(rings_, find_meetings(rings_, grid), grid, frame_,
                {touches_.outside, false, ShapeRules::touch_gap * frame_.step()});
   const SegmentGrid separated(segments_of(rings_));
   list_meetings(separated, find_meetings(rings_, separated), within_rings);
+}
+
+/// Adds what has no area in the file, where a projection has moved two edges apart that cancel each other there.
+/// Returns whether there is something.
+bool Placement::list_seams_in_file() {
+  contours::Contour in_file = contour_;
+  std::erase_if(in_file.rings, [](const contours::ContourRing& ring) { return ring.in_file.empty(); });
+  for (contours::ContourRing& ring : in_file.rings)
+    ring.points = std::exchange(ring.in_file, {});
+  in_file.faults = {};
+  contours::repair_rings(in_file);
+  contours::add_faults(faults_, in_file.faults);
+  return !in_file.faults.empty();
 }
 
 /// Repairs rings that meet themselves; what they lose is a fault.
@@ -371,12 +381,13 @@ std::string Placement::other_edge(const std::array<int, 2>& lines) const {
 
 /// Returns whether a ring of longitudes and latitudes jumps from one side of the meridian of 180 degrees to the other.
 bool crosses_date_line(const std::vector<Vec2>& ring) {
+  constexpr double largest_longitude = 2 * half_turn, largest_latitude = 0.5 * half_turn;
   bool jumps = false;
   for (std::size_t k = 0; k < ring.size(); ++k) {
     const Vec2 here = ring[k], next = ring[k + 1 < ring.size() ? k + 1 : 0];
-    if (std::fabs(here.x) > 360 || std::fabs(here.y) > 90)
+    if (std::fabs(here.x) > largest_longitude || std::fabs(here.y) > largest_latitude)
       return false;
-    jumps = jumps || std::fabs(here.x - next.x) > 180;
+    jumps = jumps || std::fabs(here.x - next.x) > half_turn;
   }
   return jumps;
 }

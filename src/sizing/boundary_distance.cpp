@@ -81,7 +81,7 @@ BoundaryDistance::BoundaryDistance(const geometry::Boundary& boundary, std::stri
   constexpr double between_copies = 4; // factor between the deviations of two copies
   constexpr double worth_a_copy = 0.5; // a copy with a larger share of the pieces saves little
   geometry::Boundary curves = pieces_named(boundary, name);
-  const std::vector<geometry::Piece> given = std::move(curves.loops.front().pieces);
+  std::vector<geometry::Piece> given = std::move(curves.loops.front().pieces);
   const geometry::Box box = boundary.bounding_box();
   double deviation = far_deviation * geometry::length(box.max - box.min); // the diagonal: no distance inside is larger
   for (int copy = 0; copy < most_copies; ++copy) {
@@ -92,7 +92,7 @@ BoundaryDistance::BoundaryDistance(const geometry::Boundary& boundary, std::stri
     curves.loops.front().pieces = std::move(coarse);
     copies_.push_back({deviation, PieceLocator(curves, images_)});
   }
-  curves.loops.front().pieces = given;
+  curves.loops.front().pieces = std::move(given);
   copies_.push_back({0, PieceLocator(curves, images_)});
 }
 

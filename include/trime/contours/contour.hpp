@@ -46,8 +46,8 @@ struct FaultList {
   bool empty() const { return repairable + others == 0; }
 };
 
-/// What happens if a file has faults. A fault without area can be repaired: rings with fewer than three distinct
-/// vertices, spikes, pairs of edges that cancel each other, and open lines of maps.
+/// Says what a reader does with the faults of a file. It can repair faults that have no area: rings with fewer than
+/// three distinct vertices, spikes, pairs of edges that cancel each other, and open lines of maps.
 enum class Faults {
   refuse,  ///< the reader throws an error that lists them
   collect, ///< they are in Contour::faults, for Part::contour to list them together with those that it finds

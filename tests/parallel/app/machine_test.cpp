@@ -45,6 +45,16 @@ TEST(Machine, AdvisesFewerThreadsOnlyWhereThatHelps) {
   EXPECT_EQ(ranks.find("--threads"), std::string::npos) << ranks;
 }
 
+/// mpirun -np 1 binds the rank to one core, so `--threads` alone would not end the warning.
+TEST(Machine, ABoundRankIsAdvisedToLeaveItsCore) {
+  const comm::Communicator comm = comm::Communicator::world();
+  const std::string bound = report(placement(100000, 1, 1), comm);
+  if (!comm.is_root())
+    return;
+  EXPECT_NE(bound.find("--bind-to none"), std::string::npos) << bound;
+  EXPECT_NE(bound.find("set --threads "), std::string::npos) << bound;
+}
+
 /// Sets a variable of the environment until its end.
 class Variable {
 public:

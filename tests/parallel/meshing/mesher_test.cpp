@@ -194,6 +194,13 @@ TEST(Mesher, TheNumberOfPointsIsMetWhereTheSizeVariesAThousandfold) {
   expect_certified(result);
 }
 
+TEST(Mesher, AShortageOfAFewPointsHasAReason) {
+  const comm::Communicator world = comm::Communicator::world();
+  const MeshResult few = run(world, {"square", square(), with_points(5), false});
+  ASSERT_LT(few.mesh.point_slab.total, 5);
+  EXPECT_NE(few.count_reason, "");
+}
+
 TEST(Mesher, BoundsOnTheSize) {
   const comm::Communicator world = comm::Communicator::world();
   for (const bool graded : {false, true}) {
