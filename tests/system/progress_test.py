@@ -12,7 +12,6 @@ import signal
 import struct
 import subprocess
 import termios
-import time
 import unittest
 
 from trime_run import ROOT, Workspace, command, environment, run
@@ -26,9 +25,10 @@ def arguments(work, *more):
     return [CONFIG, "meshing.points=5000", f"output.directory={work}", "output.overwrite=true", *more]
 
 
-def read_all(terminal):
-    """All that was written to a pseudo-terminal; its reading end fails where the writers have gone."""
-    parts = []
+def read_all(terminal, at_live_line):
+    """All that was written to a pseudo-terminal; its reading end fails where the writers have gone. Calls
+    at_live_line() once the live line has appeared."""
+    text = b""
     while True:
         try:
             part = os.read(terminal, 1 << 16)
@@ -36,21 +36,22 @@ def read_all(terminal):
             break
         if not part:
             break
-        parts.append(part)
-    return b"".join(parts).decode()
+        is_first = ERASE.encode() not in text
+        text += part
+        if is_first and ERASE.encode() in text:
+            at_live_line()
+    return text.decode()
 
 
-def run_on_terminal(given, ranks=1, columns=100, kind="xterm", interrupt_after=None):
-    """Returns the exit code and the output of a run on a terminal with this number of columns."""
+def run_on_terminal(given, ranks=1, columns=100, kind="xterm", interrupt=False):
+    """Returns the exit code and the output of a run on a terminal with this number of columns. With `interrupt` the
+    run gets a SIGINT when its live line appears: from then on the program catches it, however busy the machine is."""
     mine, its = pty.openpty()
     fcntl.ioctl(its, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
     with subprocess.Popen(command(given, ranks), env=environment(1) | {"TERM": kind}, stdin=subprocess.DEVNULL,
                           stdout=its, stderr=its) as process:
         os.close(its)
-        if interrupt_after is not None:
-            time.sleep(interrupt_after)
-            process.send_signal(signal.SIGINT)
-        text = read_all(mine)
+        text = read_all(mine, lambda: process.send_signal(signal.SIGINT) if interrupt else None)
         os.close(mine)
         return process.wait(120), text
 
@@ -176,7 +177,7 @@ class Progress(unittest.TestCase):
 
     def test_an_interrupt_erases_the_line(self):
         with Workspace() as work:
-            code, text = run_on_terminal(arguments(work, "meshing.points=2000000"), interrupt_after=2)
+            code, text = run_on_terminal(arguments(work, "meshing.points=2000000"), interrupt=True)
             self.assertEqual(code, -signal.SIGINT)
             self.assertTrue(any(line.startswith("trime_mpi: interrupted") for line in shown(text)), text)
 
