@@ -116,6 +116,29 @@ PartOptions part_of(const Settings& settings, const std::string& name, const fs:
   return part;
 }
 
+CurveOptions curve_of(const Settings& settings, const std::string& name, const fs::path& directory,
+                      const RunOptions& options, Diagnostics& problems) {
+  const std::string section = "curve." + name;
+  CurveOptions curve;
+  curve.name = name;
+  curve.file_is_relative = fs::path(settings.text(section, "file")).is_relative();
+  curve.file = (directory / settings.text(section, "file")).lexically_normal().string();
+  if (const std::string attribute = settings.text(section, "attribute"); attribute != "none")
+    curve.attribute = attribute;
+  curve.clip = settings.boolean(section, "clip");
+  const std::string with = settings.text(section, "normalize_with");
+  if (with == "none")
+    return curve;
+  curve.normalize_with = with;
+  const auto is_it = [&](const PartOptions& part) { return part.name == with && part.normalize; };
+  if (std::none_of(options.parts.begin(), options.parts.end(), is_it))
+    problems.add(settings.line(section, "normalize_with"),
+                 fmt::format("'normalize_with = {}' in [{}]: expected the name of a part of type contour with "
+                             "'normalize = true'{}",
+                             shown(with), section, suggestion(with, settings.parts())));
+  return curve;
+}
+
 /// The geometry must parse. Parts that it does not use are worth a warning.
 void read_geometry(const Settings& settings, RunOptions& options, Diagnostics& problems) {
   options.geometry = settings.text("shape", "geometry");
@@ -163,6 +186,12 @@ void read_shape_options(const Settings& settings, const fs::path& directory, Run
                         Diagnostics& problems) {
   for (const std::string& name : settings.parts())
     options.parts.push_back(part_of(settings, name, directory, problems));
+  for (const std::string& name : settings.curves())
+    options.curves.push_back(curve_of(settings, name, directory, options, problems));
+  if (!options.curves.empty() && (settings.boolean("domain", "periodic_x") || settings.boolean("domain", "periodic_y")))
+    problems.add(
+        settings.section_line("curve." + options.curves[0].name),
+        "a periodic container cannot have curves inside yet: remove [curve.NAME], or periodic_x and periodic_y");
   read_geometry(settings, options, problems);
   read_projection(settings, options, problems);
 }

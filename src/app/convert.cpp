@@ -26,6 +26,7 @@ std::string value_text(const Metadata& metadata, const std::string& name) {
 formats::Names names_of(const Metadata& metadata) {
   formats::Names names{io::column_of<std::string>(metadata, "tags", "part_name"),
                        io::column_of<std::string>(metadata, "tags", "region_name"),
+                       io::curve_names(metadata),
                        {io::attribute_of<double>(metadata, "period_x"), io::attribute_of<double>(metadata, "period_y")},
                        value_text(metadata, "crs")};
   for (const io::Attribute& attribute : metadata.attributes)
@@ -142,7 +143,7 @@ void convert(const CommandLine& line, io::RunFiles* files, const comm::Communica
   const std::string &from = line.files[0], &to = line.files[1];
   const formats::Format format = format_of_output(to);
   formats::refuse_to_replace(formats::paths_of(format, to), line.overwrite, "add --overwrite to replace it", comm);
-  const Metadata metadata = io::read_metadata(from, {"tags"}, comm);
+  const Metadata metadata = io::read_metadata(from, {"tags", "curves"}, comm);
   formats::Names names = names_of(metadata);
   names.in_degrees = line.in_degrees;
   const mesh::DistributedMesh mesh = io::read_mesh(from, metadata, comm);
@@ -154,7 +155,7 @@ void convert(const CommandLine& line, io::RunFiles* files, const comm::Communica
 }
 
 std::string info(const std::string& path, const comm::Communicator& comm) {
-  const Metadata metadata = io::read_metadata(path, {"checks", "quality", "tags"}, comm);
+  const Metadata metadata = io::read_metadata(path, {"checks", "quality", "tags", "curves"}, comm);
   std::string text = fmt::format("{}: {} points, {} triangles{}\n", path, value_text(metadata, "points"),
                                  value_text(metadata, "triangles"), is_marked(metadata) ? "; NOT complete" : "");
   text += made_text(metadata);

@@ -170,6 +170,8 @@ void prepare_degrees(const RunOptions& options, std::span<Contour> contours, Log
     if (!projection::is_geographic(system_of(contour)))
       continue;
     check_degrees(contour);
+    if (k >= options.parts.size()) // lines of curves, which are not joined
+      continue;
     const bool united = options.parts[k].dissolve;
     const double length =
         contours::join_at_date_line(contour, united ? contours::DateLine::each_separate : contours::DateLine::join);

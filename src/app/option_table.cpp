@@ -154,6 +154,29 @@ const Option table[] = {
      .kind = OptionKind::text,
      .meaning = "signed distance as a formula of x and y, negative inside, such as `sqrt((x-0.5)^2+(y-0.5)^2)-0.3`"},
 
+    {.section = "curve.NAME",
+     .key = "file",
+     .kind = OptionKind::path,
+     .meaning =
+         "the lines of the curve NAME inside the shape, which edges of the mesh follow: a `.xy` file, whose lines "
+         "need not be closed, or the lines and polygons of a `.geojson` or `.shp`"},
+    {.section = "curve.NAME",
+     .key = "attribute",
+     .kind = OptionKind::text,
+     .fallback = "none",
+     .meaning = "an attribute of the features of a `.geojson` or `.shp` that divides them into several curves: each "
+                "value makes a curve `NAME.VALUE`"},
+    {.section = "curve.NAME",
+     .key = "clip",
+     .kind = OptionKind::boolean,
+     .fallback = "false",
+     .meaning = "true: what lies outside of the shape is left out; false: it is an error"},
+    {.section = "curve.NAME",
+     .key = "normalize_with",
+     .kind = OptionKind::text,
+     .fallback = "none",
+     .meaning = "name of a normalised contour; the curve is moved and scaled in the same way as this contour"},
+
     {.section = "sizing",
      .key = "type",
      .kind = OptionKind::word,
@@ -456,7 +479,7 @@ std::span<const Option> option_table() {
 }
 
 std::string_view table_section(std::string_view section) {
-  return section.starts_with("shape.") ? part_section : section;
+  return section.starts_with("shape.") ? part_section : section.starts_with("curve.") ? curve_section : section;
 }
 
 const Option* find_option(std::string_view section, std::string_view key) {

@@ -37,6 +37,16 @@ struct PartOptions {
   std::string sdf; ///< formula of x and y
 };
 
+/// One section [curve.NAME] of a config.
+struct CurveOptions {
+  std::string name;
+  std::string file;              ///< path, as PartOptions::file
+  bool file_is_relative = false; ///< true if the user gave the path relative to the config file
+  std::string attribute;         ///< attribute of map features that divides the curve; empty: no attribute
+  bool clip = false;             ///< what lies outside of the shape is left out
+  std::string normalize_with;    ///< name of the contour whose normalisation is applied; empty: no normalisation
+};
+
 /// The section [sizing] of a config. The absolute bounds of the size are in meshing::MeshOptions.
 struct SizingOptions {
   std::string type = "uniform"; ///< uniform, automatic or expression
@@ -64,7 +74,8 @@ struct CheckpointOptions {
 
 struct RunOptions {
   std::vector<PartOptions> parts;
-  std::string geometry;   ///< the expression that joins the parts of the shape
+  std::vector<CurveOptions> curves; ///< curves inside the shape
+  std::string geometry;             ///< the expression that joins the parts of the shape
   std::string projection; ///< projection of contours: empty for none, `auto`, or a reference system that PROJ knows
   bool periodic_x = false, periodic_y = false; ///< whether opposite sides of the container are joined
   geometry::Box container = geometry::unit_square;

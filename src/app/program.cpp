@@ -163,6 +163,7 @@ formats::SeriesOptions series_options(const Job& job, const ShapeInput& input) {
   formats::Names& names = options.names;
   names.parts = boundary.part_names;
   names.regions = {job.options.geometry};
+  names.curves = input.domain().curves().names;
   names.period = {boundary.periods.x, boundary.periods.y};
   names.crs = input.map.crs;
   formats::open_parts(names); // refuses unknown names, on all ranks
@@ -320,6 +321,7 @@ ExitCode MeshRun::run() {
                                job_.options.geometry,
                                {boundary().periods.x, boundary().periods.y},
                                input_.map.crs,
+                               input_.domain().curves().names,
                                job_.places.ring_lines(boundary())}};
   const meshing::MeshResult result = make_mesh(provenance);
   const SizeSummary sizes = summarize_size(size_.description, result.mesh, job_.comm);

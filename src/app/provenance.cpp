@@ -157,23 +157,27 @@ io::MetadataGroup quality_group(const mesh::QualitySummary& quality, const Prove
 
 io::Metadata describe_run(const Provenance& p, const meshing::MeshResult& result, const SizeSummary& size,
                           const Measurements& measured) {
-  return {joined({given_attributes(p), record::mesh_attributes(result.mesh, final_retriangulation(result)),
-                  record::result_attributes(result), measured_attributes(result, size, measured)}),
-          texts(p),
-          {record::history_group(result.history), quality_group(result.quality, p), record::checks_group(result.checks),
-           record::bad_triangles_group(result.quality), timers_group(measured.phases), counters_group(measured),
-           record::tags_group(p.origin, result.loops), record::sharp_corners_group(result.features.sharp_corners),
-           record::rings_group(p.origin, result.features.loops), normalization_group(p.normalized)}};
+  return record::with_curves(
+      {joined({given_attributes(p), record::mesh_attributes(result.mesh, final_retriangulation(result)),
+               record::result_attributes(result), measured_attributes(result, size, measured)}),
+       texts(p),
+       {record::history_group(result.history), quality_group(result.quality, p), record::checks_group(result.checks),
+        record::bad_triangles_group(result.quality), timers_group(measured.phases), counters_group(measured),
+        record::tags_group(p.origin, result.loops), record::sharp_corners_group(result.features.sharp_corners),
+        record::rings_group(p.origin, result.features.loops), normalization_group(p.normalized)}},
+      p.origin);
 }
 
 io::Metadata describe_step(const Provenance& p, const meshing::Snapshot& snapshot) {
   const Attributes step{{"stop_reason", std::string("none: a step of the run")},
                         {"seconds_total", snapshot.seconds},
                         {"complete", std::int64_t{0}}};
-  return {joined({given_attributes(p), record::mesh_attributes(snapshot.mesh, snapshot.retriangulation), step}),
-          texts(p),
-          {quality_group(snapshot.quality, p), record::tags_group(p.origin, snapshot.loops),
-           normalization_group(p.normalized)}};
+  return record::with_curves(
+      {joined({given_attributes(p), record::mesh_attributes(snapshot.mesh, snapshot.retriangulation), step}),
+       texts(p),
+       {quality_group(snapshot.quality, p), record::tags_group(p.origin, snapshot.loops),
+        normalization_group(p.normalized)}},
+      p.origin);
 }
 
 } // namespace trime::app

@@ -12,7 +12,7 @@
 namespace trime::app {
 namespace {
 
-constexpr std::string_view part_prefix = "shape.";
+constexpr std::string_view part_prefix = "shape.", curve_prefix = "curve.";
 constexpr int most_misspelt = 100; // names for which the nearest known one is sought: more than Diagnostics::text shows
 const std::vector<std::string> reserved_names{"domain", "union", "intersection", "difference"};
 
@@ -50,38 +50,57 @@ Settings::Settings(const IniDocument& document, Diagnostics& problems) {
       meant_.insert({nearest_name(entry.section, section_names()), entry.key});
   for (const std::string& part : parts_)
     check_part(std::string(part_prefix) + part, problems);
+  for (const std::string& curve : curves_)
+    check_curve(std::string(curve_prefix) + curve, problems);
 }
 
 bool Settings::is_known_section(const std::string& section) const {
   if (section.starts_with(part_prefix))
     return part_names_.contains(section.substr(part_prefix.size()));
+  if (section.starts_with(curve_prefix))
+    return curve_names_.contains(section.substr(curve_prefix.size()));
   static const std::vector<std::string> known = section_names();
-  return section != part_section && std::find(known.begin(), known.end(), section) != known.end();
+  return section != part_section && section != curve_section &&
+         std::find(known.begin(), known.end(), section) != known.end();
 }
 
 void Settings::check_sections(const IniDocument& document, Diagnostics& problems) {
   for (const IniSection& section : document.sections) {
     section_lines_.emplace(section.name, section.line);
-    if (!section.name.starts_with(part_prefix)) {
+    if (!section.name.starts_with(part_prefix) && !section.name.starts_with(curve_prefix)) {
       if (!is_known_section(section.name))
         problems.add(section.line,
                      fmt::format("unknown section [{}]{}", shown(section.name),
                                  ++misspelt_ <= most_misspelt ? suggestion(section.name, section_names()) : ""));
       continue;
     }
-    const std::string name = section.name.substr(part_prefix.size());
-    const bool reserved = std::find(reserved_names.begin(), reserved_names.end(), name) != reserved_names.end();
-    if (reserved)
-      problems.add(
-          section.line,
-          fmt::format("'{}' cannot name a part, because 'geometry' uses this word; choose another name", shown(name)));
-    else if (!is_part_name(name))
-      problems.add(
-          section.line,
-          fmt::format("'{}' cannot name a part: use letters, digits and '_', and begin with a letter", shown(name)));
-    else if (part_names_.insert(name).second)
-      parts_.push_back(name);
+    check_name(section, problems);
   }
+}
+
+/// The name of a part or a curve.
+void Settings::check_name(const IniSection& section, Diagnostics& problems) {
+  const bool is_curve = section.name.starts_with(curve_prefix);
+  const std::string name = section.name.substr((is_curve ? curve_prefix : part_prefix).size());
+  const char* what = is_curve ? "curve" : "part";
+  if (std::find(reserved_names.begin(), reserved_names.end(), name) != reserved_names.end())
+    problems.add(section.line,
+                 fmt::format("'{}' cannot name a {}, because 'geometry' uses this word; choose another name",
+                             shown(name), what));
+  else if (!is_part_name(name))
+    problems.add(
+        section.line,
+        fmt::format("'{}' cannot name a {}: use letters, digits and '_', and begin with a letter", shown(name), what));
+  else if ((is_curve ? part_names_ : curve_names_).contains(name))
+    problems.add(section.line, fmt::format("'{}' names a part and a curve: expected different names", shown(name)));
+  else if ((is_curve ? curve_names_ : part_names_).insert(name).second)
+    (is_curve ? curves_ : parts_).push_back(name);
+}
+
+void Settings::check_curve(const std::string& section, Diagnostics& problems) {
+  if (!is_set(section, "file"))
+    problems.add(section_line(section),
+                 fmt::format("[{}] needs 'file': {}", shown(section), expectation(*find_option(section, "file"))));
 }
 
 void Settings::check_entry(const IniEntry& entry, Diagnostics& problems) {
@@ -203,7 +222,8 @@ std::string Settings::resolved(const std::string& directory) const {
       if (option.section != table_section(section) || (*option.part_type != '\0' && option.part_type != type))
         continue;
       std::string value = text(section, option.key);
-      const bool from_config = table_section(section) == part_section || option.section == std::string_view("meshing");
+      const bool from_config = table_section(section) == part_section || table_section(section) == curve_section ||
+                               option.section == std::string_view("meshing");
       if (option.kind == OptionKind::path && from_config && value != option.fallback)
         value = fs::absolute(fs::path(directory) / value).lexically_normal().string();
       result +=
@@ -211,12 +231,14 @@ std::string Settings::resolved(const std::string& directory) const {
     }
   };
   for (const std::string& section : section_names()) {
-    if (section != part_section) {
+    if (section == part_section)
+      for (const std::string& part : parts_)
+        section_text(std::string(part_prefix) + part);
+    else if (section == curve_section)
+      for (const std::string& curve : curves_)
+        section_text(std::string(curve_prefix) + curve);
+    else
       section_text(section);
-      continue;
-    }
-    for (const std::string& part : parts_)
-      section_text(std::string(part_prefix) + part);
   }
   return result;
 }

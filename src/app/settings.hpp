@@ -24,6 +24,8 @@ public:
 
   /// Returns the names of the sections [shape.NAME] in the order of the file.
   const std::vector<std::string>& parts() const { return parts_; }
+  /// Returns the names of the sections [curve.NAME] in the order of the file.
+  const std::vector<std::string>& curves() const { return curves_; }
   /// Returns the line of the section in the file.
   int section_line(const std::string& section) const;
 
@@ -56,13 +58,15 @@ private:
   void check_sections(const IniDocument& document, Diagnostics& problems);
   void check_entry(const IniEntry& entry, Diagnostics& problems);
   void check_part(const std::string& section, Diagnostics& problems);
+  void check_curve(const std::string& section, Diagnostics& problems);
+  void check_name(const IniSection& section, Diagnostics& problems);
   bool is_known_section(const std::string& section) const;
   void keep(const IniEntry& entry);
 
   std::map<std::string, int> section_lines_; ///< line in which each section begins first
   std::map<IniKey, int> lines_;              ///< line of each entry of the document
-  std::vector<std::string> parts_;
-  std::set<std::string> part_names_;                 ///< the elements of parts_, for searching
+  std::vector<std::string> parts_, curves_;
+  std::set<std::string> part_names_, curve_names_;   ///< the elements of parts_ and curves_, for searching
   std::map<IniKey, std::string> good_;               ///< all allowed values that the user has set
   std::map<std::string, std::vector<IniEntry>> own_; ///< all allowed values by section, in the order of the file
   std::set<IniKey> meant_;                           ///< known keys that are most similar to misspelt sections and keys

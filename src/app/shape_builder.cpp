@@ -3,6 +3,7 @@
 
 #include "comm/agree.hpp"
 #include "contours/faults.hpp"
+#include "contours/map_features.hpp"
 #include "contours/ring_repair.hpp"
 #include "core/read_file.hpp"
 #include "fitting/points_of_length.hpp"
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <span>
 
 namespace trime::app {
@@ -43,8 +45,9 @@ RunOptions with_used_parts(const RunOptions& options) {
   used.parts.clear();
   for (int k = 0; k < static_cast<int>(options.parts.size()); ++k) {
     const PartOptions& part = options.parts[static_cast<std::size_t>(k)];
+    const auto follows = [&](const CurveOptions& curve) { return curve.normalize_with == part.name; };
     if (std::binary_search(found.begin(), found.end(), k) || part.name == options.fixed_points.normalize_with ||
-        part.name == shape::domain_name)
+        std::any_of(options.curves.begin(), options.curves.end(), follows) || part.name == shape::domain_name)
       used.parts.push_back(part);
   }
   return used;
@@ -57,24 +60,29 @@ contours::Faults faults_of(const PartOptions& part) {
 /// The rings of parts that are contours, by part, projected. Rank 0 reads. Collective.
 std::vector<contours::Contour> read_contours(const RunOptions& options, const comm::Communicator& comm, Log& log,
                                              MapSystem& map) {
-  std::vector<contours::Contour> contours(options.parts.size());
+  std::vector<contours::Contour> contours(options.parts.size() + options.curves.size()); // curves last
   comm::run_agreed(comm, [&] {
     if (!comm.is_root())
       return;
-    for (std::size_t k = 0; k < contours.size(); ++k)
+    for (std::size_t k = 0; k < options.parts.size(); ++k)
       if (const PartOptions& part = options.parts[k]; part.type == "contour")
         contours[k] =
             contours::read_contour(part.file, hint_of(part.file_is_relative), part.attribute, faults_of(part));
-    for (std::size_t k = 0; k < contours.size(); ++k)
+    for (std::size_t k = 0; k < options.parts.size(); ++k)
       if (options.parts[k].dissolve && !contours[k].is_map)
         throw ConfigError(fmt::format("{}: 'overlap = union' in [shape.{}] unites the polygons of a map; expected a "
                                       ".geojson or .shp, found a file of another type",
                                       contours[k].source, options.parts[k].name));
-    for (std::size_t k = 0; k < contours.size(); ++k)
+    for (std::size_t k = 0; k < options.parts.size(); ++k)
       if (options.parts[k].repair) {
         contours::repair_rings(contours[k]);
         contours::check_reading(contours[k], contours::Faults::repair, "rings with an area");
       }
+    for (std::size_t k = 0; k < options.curves.size(); ++k) {
+      const CurveOptions& curve = options.curves[k];
+      contours[options.parts.size() + k] =
+          contours::read_curves(curve.file, hint_of(curve.file_is_relative), curve.attribute);
+    }
     map = project_contours(options, contours, log);
   });
   if (comm.size() > 1)
@@ -146,6 +154,35 @@ shape::Part build_part(const PartOptions& part, const contours::Contour& contour
   return shape::Part::contour(part.name, contour, place, frame, touches);
 }
 
+/// The curves NAME, or NAME.VALUE for each value of an attribute, in the order of their first lines.
+void add_curves(const CurveOptions& options, const contours::Contour& contour, const contours::Normalization& place,
+                const geometry::Frame& frame, shape::CurveParts& parts) {
+  std::map<int, std::size_t> number_of; // by marker
+  std::vector<std::string> names;
+  std::vector<std::vector<shape::CurveLine>> lines;
+  for (const contours::ContourRing& ring : contour.rings) {
+    const int marker = ring.markers.empty() ? 0 : ring.markers.front();
+    const auto [found, is_new] = number_of.try_emplace(marker, names.size());
+    if (is_new) {
+      const std::vector<std::string>& values = contour.marker_names;
+      names.push_back(marker == 0      ? options.name
+                      : values.empty() ? fmt::format("{}.{}", options.name, marker)
+                                       : options.name + "." + values[static_cast<std::size_t>(marker - 1)]);
+      lines.emplace_back();
+    }
+    shape::CurveLine& line = lines[found->second].emplace_back();
+    line.closed = !ring.open;
+    for (std::size_t k = 0; k < ring.points.size(); ++k) {
+      line.points.push_back(place.apply(ring.points[k]));
+      line.labels.push_back(contours::where(contour, ring.lines[k]));
+    }
+  }
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    parts.curves.push_back(shape::Part::curve(names[k], std::move(lines[k]), frame));
+    parts.clip.push_back(options.clip ? 1 : 0);
+  }
+}
+
 void tell_of(const shape::Part& part, Log& log) {
   for (const std::string& warning : part.warnings())
     log.warning("{}", warning);
@@ -177,6 +214,7 @@ ShapeInput read_shape(const RunOptions& given, ShapeUse use, const comm::Communi
   const shape::Region region = region_of(options);
   std::vector<shape::Part> parts;
   contours::Normalization fixed_points_place;
+  std::map<std::string, contours::Normalization> places_of; // of normalised parts
   std::vector<NormalizedPart> normalized;
   UserPlaces found; // messages of the parts below speak of their files already
   for (std::size_t k = 0; k < options.parts.size(); ++k) {
@@ -191,18 +229,31 @@ ShapeInput read_shape(const RunOptions& given, ShapeUse use, const comm::Communi
     contours[k] = {};
     if (part.name == options.fixed_points.normalize_with)
       fixed_points_place = place;
+    places_of[part.name] = place;
     if (part.normalize)
       normalized.push_back({part.name, part.file, place.scale, place.to - place.scale * place.from});
     tell_of(parts.back(), log);
+  }
+  shape::CurveParts curves;
+  for (std::size_t k = 0; k < options.curves.size(); ++k) {
+    const CurveOptions& curve = options.curves[k];
+    const contours::Normalization place =
+        curve.normalize_with.empty() ? contours::Normalization{} : places_of.at(curve.normalize_with);
+    const contours::Contour& contour = contours[options.parts.size() + k];
+    add_curves(curve, contour, place, frame, curves);
+    if (comm.is_root())
+      found.add(contour, place);
+    for (const std::string& warning : contour.warnings)
+      log.warning("{}", warning);
   }
   if (!map.crs.empty())
     found.set_on_earth([map](geometry::Vec2 place) { return on_earth(map, place); });
   places = std::move(found);
   ShapeInput input{{}, {}, fixed_points_place, std::move(normalized), std::move(map)};
   if (use == ShapeUse::queries)
-    input.shape.emplace(std::move(parts), options.geometry, frame);
+    input.shape.emplace(std::move(parts), options.geometry, frame, curves);
   else
-    input.alone.emplace(shape::domain_of(std::move(parts), options.geometry, frame));
+    input.alone.emplace(shape::domain_of(std::move(parts), options.geometry, frame, curves));
   return input;
 }
 

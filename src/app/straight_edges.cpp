@@ -142,13 +142,15 @@ public:
 
 private:
   std::size_t after(std::size_t r, std::size_t k) const { return k + 1 == rings_[r]->points.size() ? 0 : k + 1; }
+  /// An open line has no edge from its last vertex.
+  bool is_edge(std::size_t r, std::size_t k) const { return !rings_[r]->open || k + 1 < rings_[r]->points.size(); }
   End end(std::size_t r, std::size_t k) const { return {rings_[r]->in_file[k], rings_[r]->points[k]}; }
 
   std::vector<LongEdge> long_edges(DividedEdges& divided) const {
     std::vector<LongEdge> edges;
     for (std::size_t r = 0; r < rings_.size(); ++r)
       for (std::size_t k = 0; k < rings_[r]->points.size(); ++k)
-        if (const End a = end(r, k), b = end(r, after(r, k)); divider_.deviates(a, b)) {
+        if (const End a = end(r, k), b = end(r, after(r, k)); is_edge(r, k) && divider_.deviates(a, b)) {
           divided.deviation = std::fmax(divided.deviation, divider_.deviation(a, b));
           edges.push_back({r, k, a, b, {}});
         }
@@ -163,7 +165,7 @@ private:
       for (std::size_t k = 0; k < rings_[r]->points.size(); ++k) {
         const bool is_known = next < known.size() && known[next].ring == r && known[next].vertex == k;
         next += is_known ? 1 : 0;
-        if (is_known || (marked_[r][k] != 0 && marked_[r][after(r, k)] != 0))
+        if (is_known || (is_edge(r, k) && marked_[r][k] != 0 && marked_[r][after(r, k)] != 0))
           edges.push_back({r, k, end(r, k), end(r, after(r, k)), {}});
       }
     return edges;

@@ -121,6 +121,10 @@ private:
 } // namespace
 
 SiteKind kind_of_junction(const geometry::Loop& loop, std::size_t piece, double corner_angle) {
+  if (loop.pieces[piece].sharp)
+    return SiteKind::sharp_corner;
+  if (loop.turning > 0 && (piece == 0 || piece == loop.turning))
+    return SiteKind::corner;
   if (loop.turn_degrees(piece) > BoundaryRules::sharp_turn)
     return SiteKind::sharp_corner;
   const double least_turn = std::fmin(corner_angle, BoundaryRules::always_a_corner);

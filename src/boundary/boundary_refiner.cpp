@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace trime::boundary {
 
@@ -53,16 +55,20 @@ polygon::DroppedLoops drop_loops(const geometry::Boundary& boundary, const sizin
 
 } // namespace
 
-BoundaryRefiner::BoundaryRefiner(const geometry::Boundary& boundary, const BoundarySizes& sizes,
+BoundaryRefiner::BoundaryRefiner(std::shared_ptr<const LaidCurves> curves, const BoundarySizes& sizes,
                                  const geometry::Lattice& lattice, double corner_angle, std::span<const Vec2> inside,
-                                 const FeatureRule& rule, std::size_t affordable)
-    : boundary_(boundary), lattice_(lattice), corner_angle_(corner_angle), tolerance_{rule.tolerance}, inside_(inside),
-      inside_tree_(tree_of(inside)), dropped_(drop_loops(boundary, sizes.asked(), rule, inside)),
-      affordable_(affordable) {
-  metrics_.reserve(boundary.loops.size());
-  for (std::size_t k = 0; k < boundary.loops.size(); ++k)
-    if (!dropped_.dropped[k])
-      metrics_.emplace_back(boundary, k, sizes);
+                                 std::span<const Vec2> held, const FeatureRule& rule, std::size_t affordable)
+    : curves_(std::move(curves)), boundary_(curves_->boundary()), lattice_(lattice),
+      corner_angle_(corner_angle), tolerance_{rule.tolerance}, inside_(inside), inside_tree_(tree_of(inside)),
+      dropped_(drop_loops(boundary_, sizes.asked(), rule, held)), affordable_(affordable) {
+  const geometry::Boundary& all = curves_->all();
+  metrics_.reserve(all.loops.size());
+  for (std::size_t k = 0; k < all.loops.size(); ++k) {
+    if (k < boundary_.loops.size() && dropped_.dropped[k])
+      continue;
+    metrics_.emplace_back(all, k, sizes);
+    boundary_loops_ += k < boundary_.loops.size() ? 1 : 0;
+  }
 }
 
 std::vector<LoopSite> BoundaryRefiner::lay_out(const Share& share) const {
@@ -92,13 +98,19 @@ std::vector<BoundaryRefiner::Cut> BoundaryRefiner::begin(std::vector<LoopSite> l
     const auto end = std::find_if(first, laid.end(), [&](const LoopSite& site) { return site.loop != first->loop; });
     const std::span<LoopSite> of_loop(first, end);
     sort_along(of_loop);
-    add_loop(of_loop);
+    if (metrics_[static_cast<std::size_t>(first->loop)].loop().turning > 0)
+      add_open_curve(of_loop);
+    else
+      add_loop(of_loop);
     first = end;
   }
+  join_nodes();
   most_sites_ = std::max(always_halved, halving_growth * sites_.size());
-  std::vector<SiteTree::Entry> items(sites_.size());
-  for (std::size_t k = 0; k < sites_.size(); ++k)
-    items[k] = {boundary_.periods.wrap(sites_[k].position), static_cast<LocalIndex>(k)};
+  std::vector<SiteTree::Entry> items;
+  items.reserve(sites_.size());
+  for (LocalIndex k = 0; k < static_cast<LocalIndex>(sites_.size()); ++k)
+    if (sites_[k].vertex == k)
+      items.push_back({boundary_.periods.wrap(sites_[k].position), k});
   trees_.emplace_back(std::move(items));
   const std::ptrdiff_t first = share.first(std::ssize(sites_)), last = share.last(std::ssize(sites_));
   return gather_in_order<Cut>(last - first, chords_in_a_row, [&](std::ptrdiff_t k, std::vector<Cut>& cuts) {
@@ -107,6 +119,8 @@ std::vector<BoundaryRefiner::Cut> BoundaryRefiner::begin(std::vector<LoopSite> l
 }
 
 void BoundaryRefiner::run(std::vector<Cut> cuts) {
+  if (cuts.empty())
+    cut_doubles(cuts);
   for (rounds_ = 0;; ++rounds_) {
     std::vector<LocalIndex> fresh_sites, fresh_chords;
     for (const Cut& cut : cuts) {
@@ -124,6 +138,8 @@ void BoundaryRefiner::run(std::vector<Cut> cuts) {
     if (fresh_sites.empty())
       break;
     cuts = find_cuts(fresh_sites, fresh_chords);
+    if (cuts.empty())
+      cut_doubles(cuts);
   }
   overfull_ = sites_.size() > affordable_;
 }
@@ -134,7 +150,68 @@ void BoundaryRefiner::add_loop(std::span<const LoopSite> loop_sites) {
   const auto loop = static_cast<std::int32_t>(loop_first_.size() - 1);
   for (LocalIndex k = 0; k < n; ++k)
     sites_.push_back({loop_sites[k].t, loop_sites[k].position, first + (k + n - 1) % n, first + (k + 1) % n, loop,
-                      loop_sites[k].kind});
+                      loop_sites[k].kind, first + k});
+}
+
+/// Takes the sites on the way there, up to the other end.
+void BoundaryRefiner::add_open_curve(std::span<const LoopSite> loop_sites) {
+  const auto loop = static_cast<std::int32_t>(loop_first_.size());
+  const LoopMetric& metric = metrics_[static_cast<std::size_t>(loop)];
+  const double end = metric.piece_t(metric.loop().turning);
+  const auto first = static_cast<LocalIndex>(sites_.size());
+  loop_first_.push_back(first);
+  for (const LoopSite& site : loop_sites) {
+    if (site.t > end)
+      break;
+    const auto own = static_cast<LocalIndex>(sites_.size());
+    sites_.push_back({site.t, site.position, own == first ? -1 : own - 1, own + 1, loop, site.kind, own});
+  }
+  TRIME_ASSERT(sites_.size() > static_cast<std::size_t>(first) + 1 && sites_.back().t == end);
+  sites_.back().next = -1;
+  sites_[first].kind = kind_of_junction(metric.loop(), 0, corner_angle_);
+  sites_.back().kind = kind_of_junction(metric.loop(), metric.loop().turning, corner_angle_);
+}
+
+/// Gives the ends of curves at one place, and the corner of the boundary there, the same vertex.
+void BoundaryRefiner::join_nodes() {
+  if (metrics_.size() == boundary_loops_)
+    return;
+  const auto is_end = [this](const Site& site) { return site.next < 0 || site.previous < 0; };
+  std::map<std::pair<double, double>, LocalIndex> nodes;
+  for (const Site& site : sites_)
+    if (is_end(site))
+      nodes[{site.position.x, site.position.y}] = -1;
+  for (LocalIndex k = 0; k < static_cast<LocalIndex>(sites_.size()); ++k) {
+    Site& site = sites_[k];
+    if (const auto node = nodes.find({site.position.x, site.position.y}); node != nodes.end()) {
+      node->second = node->second < 0 ? k : node->second;
+      site.vertex = node->second;
+    }
+  }
+}
+
+bool BoundaryRefiner::is_straight(LocalIndex chord) const {
+  const Site& a = sites_[chord];
+  const auto way = metrics_[a.loop].on_one_piece(a.t, end_t(a));
+  return way && way->turn == 0;
+}
+
+/// Lists chords between the same two vertices as another chord, unless they are straight.
+void BoundaryRefiner::cut_doubles(std::vector<Cut>& cuts) const {
+  if (metrics_.size() == boundary_loops_)
+    return;
+  std::map<std::pair<LocalIndex, LocalIndex>, std::vector<LocalIndex>> chords;
+  for (LocalIndex k = 0; k < static_cast<LocalIndex>(sites_.size()); ++k)
+    if (const Site& site = sites_[k]; site.next >= 0) {
+      const LocalIndex a = site.vertex, b = next(site).vertex;
+      if (sites_[a].kind != SiteKind::plain && sites_[b].kind != SiteKind::plain) // else only one curve leads there
+        chords[std::minmax(a, b)].push_back(k);
+    }
+  for (const auto& [ends, same] : chords)
+    for (const LocalIndex k : same)
+      if (same.size() > 1 && !is_straight(k))
+        cuts.push_back({k, -1});
+  std::sort(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) { return a.chord < b.chord; });
 }
 
 /// New chords against everything, old ones against the new sites only; ascending by chord.
@@ -151,6 +228,8 @@ std::vector<BoundaryRefiner::Cut> BoundaryRefiner::find_cuts(const std::vector<L
   std::vector<LocalIndex> fresh = fresh_chords;
   std::sort(fresh.begin(), fresh.end());
   const auto look = [&](LocalIndex k, std::vector<Cut>& cuts) {
+    if (sites_[k].next < 0)
+      return;
     if (std::binary_search(fresh.begin(), fresh.end(), k))
       look_at_fresh(k, cuts);
     else if (const LocalIndex intruder = find_intruder(newest, k); intruder >= 0)
@@ -168,6 +247,8 @@ std::vector<BoundaryRefiner::Cut> BoundaryRefiner::find_cuts(const std::vector<L
 
 /// A new chord against everything.
 void BoundaryRefiner::look_at_fresh(LocalIndex k, std::vector<Cut>& cuts) const {
+  if (sites_[k].next < 0)
+    return;
   LocalIndex intruder = -1;
   for (std::size_t tree = 0; tree < trees_.size() && intruder < 0; ++tree)
     intruder = find_intruder(trees_[tree], k);
@@ -180,6 +261,8 @@ void BoundaryRefiner::look_at_fresh(LocalIndex k, std::vector<Cut>& cuts) const 
 std::vector<LocalIndex> BoundaryRefiner::candidates(const std::vector<LocalIndex>& fresh_sites,
                                                     const std::vector<LocalIndex>& fresh_chords) {
   const auto watch = [&](LocalIndex k) {
+    if (sites_[k].next < 0)
+      return;
     const Vec2 from = sites_[k].position;
     watch_->add(boundary_.periods.wrap(from), end_of(sites_[k]) - from, k);
   };
@@ -208,7 +291,7 @@ LocalIndex BoundaryRefiner::find_intruder(const SiteTree& tree, LocalIndex chord
   const auto images = [reach](double period) { // to each side that the disc may meet
     return period > 0 ? static_cast<int>(std::fmin(4.0, 1 + std::floor(reach / period))) : 0;
   };
-  const LocalIndex own = foreign ? -1 : chord, end = foreign ? -1 : site.next;
+  const LocalIndex own = foreign ? -1 : site.vertex, end = foreign ? -1 : next(site).vertex;
   LocalIndex intruder = tree.find_in_disc(a, b, own, end);
   for (int i = -images(periods.x); i <= images(periods.x) && intruder < 0; ++i)
     for (int j = -images(periods.y); j <= images(periods.y) && intruder < 0; ++j)
@@ -229,7 +312,8 @@ bool BoundaryRefiner::curve_offends(LocalIndex chord) const {
   const auto way = metrics_[a.loop].on_one_piece(a.t, end_t(a));
   if (way && way->turn == 0)
     return a.position == end_of(a);
-  const bool is_there_and_back = next(a).next == chord && !metrics_[a.loop].loop().winds(); // two sites enclose nothing
+  const bool is_there_and_back = next(a).next == chord && metrics_[a.loop].loop().turning == 0 &&
+                                 !metrics_[a.loop].loop().winds(); // two sites enclose nothing
   if (is_there_and_back || a.position == end_of(a))
     return true;
   if (way && way->turn < BoundaryRules::gentle_turn && way->length > BoundaryRules::gentle_in_steps * lattice_.step())
@@ -274,7 +358,7 @@ LocalIndex BoundaryRefiner::divide(const Cut& cut) {
   const LoopMetric& metric = metrics_[a.loop];
   const double end = end_t(a);
   if (metric.arc_length(a.t, end) < BoundaryRules::shortest_in_steps * lattice_.step() ||
-      (cut.intruder >= 0 && cut.intruder != cut.chord && cut.intruder != a.next &&
+      (cut.intruder >= 0 && cut.intruder != a.vertex && cut.intruder != b.vertex &&
        (boundary_.periods.same_point(sites_[cut.intruder].position, a.position) ||
         boundary_.periods.same_point(sites_[cut.intruder].position, b.position))))
     fail(cut);
@@ -289,7 +373,8 @@ LocalIndex BoundaryRefiner::divide(const Cut& cut) {
   const double t = place.junction >= 0 ? metric.piece_t(junction) : round ? place.t - metric.total() : place.t;
   const auto index = static_cast<LocalIndex>(sites_.size());
   sites_.push_back({t, position, cut.chord, a.next, a.loop,
-                    place.junction >= 0 ? kind_of_junction(metric.loop(), junction, corner_angle_) : SiteKind::plain});
+                    place.junction >= 0 ? kind_of_junction(metric.loop(), junction, corner_angle_) : SiteKind::plain,
+                    index});
   sites_[cut.chord].next = index;
   sites_[a.next].previous = index;
   return index;

@@ -6,6 +6,7 @@
 #include "boundary/boundary_layout.hpp"
 #include "boundary/boundary_sizes.hpp"
 #include "boundary/feature_rule.hpp"
+#include "boundary/laid_curves.hpp"
 #include "boundary/loop_metric.hpp"
 #include "boundary/segment_watch.hpp"
 #include "boundary/site_tree.hpp"
@@ -31,15 +32,17 @@ struct Share {
   std::int64_t last(std::int64_t all) const { return all / ranks * (rank + 1) + all % ranks * (rank + 1) / ranks; }
 };
 
-/// @brief Places sites on a boundary loop by loop, and then divides chords (edges between successive sites) in rounds.
-/// Ranks may share the first two steps; their results are joined in the order of the ranks. See make_boundary_sites.
+/// @brief Places sites on a boundary and on curves inside, loop by loop, and then divides chords (edges between
+/// successive sites) in rounds. Ranks may share the first two steps; their results are joined in the order of the
+/// ranks. See make_boundary_sites.
 class BoundaryRefiner {
 public:
   /// @param affordable number of sites at which dividing ends, because then the caller needs to know only that there
   /// are too many
-  BoundaryRefiner(const geometry::Boundary& boundary, const BoundarySizes& sizes, const geometry::Lattice& lattice,
-                  double corner_angle, std::span<const geometry::Vec2> inside, const FeatureRule& rule,
-                  std::size_t affordable);
+  /// @param held points inside the shape whose loops are not dropped
+  BoundaryRefiner(std::shared_ptr<const LaidCurves> curves, const BoundarySizes& sizes,
+                  const geometry::Lattice& lattice, double corner_angle, std::span<const geometry::Vec2> inside,
+                  std::span<const geometry::Vec2> held, const FeatureRule& rule, std::size_t affordable);
 
   /// A chord that must be divided, and the reason.
   struct Cut {
@@ -64,12 +67,18 @@ public:
 private:
   struct Site {
     double t;
-    geometry::Vec2 position; // position along the unrolled loop
-    LocalIndex previous, next;
+    geometry::Vec2 position;   // position along the unrolled loop
+    LocalIndex previous, next; // -1 beyond the ends of an open curve
     std::int32_t loop;
     SiteKind kind;
+    LocalIndex vertex; // the first site at this place: several curves may meet there
   };
   void add_loop(std::span<const LoopSite> loop_sites);
+  void add_open_curve(std::span<const LoopSite> loop_sites);
+  void join_nodes();
+  void cut_doubles(std::vector<Cut>& cuts) const;
+  bool is_straight(LocalIndex chord) const;
+  polygon::InnerChords inner_chords() const;
   void look_at_fresh(LocalIndex chord, std::vector<Cut>& cuts) const;
   std::vector<Cut> find_cuts(const std::vector<LocalIndex>& fresh_sites, const std::vector<LocalIndex>& fresh_chords);
   std::vector<LocalIndex> candidates(const std::vector<LocalIndex>& fresh_sites,
@@ -115,14 +124,16 @@ private:
     return metrics_[a.loop].summarize(a.t, end_t(a), a.position, end_of(a));
   }
 
-  const geometry::Boundary& boundary_;
+  const std::shared_ptr<const LaidCurves> curves_;
+  const geometry::Boundary& boundary_; // the boundary alone
   const geometry::Lattice& lattice_;
   const double corner_angle_;
   const FeatureTolerance tolerance_;
   const std::span<const geometry::Vec2> inside_;
   const SiteTree inside_tree_;
   const polygon::DroppedLoops dropped_;
-  std::vector<LoopMetric> metrics_; // one LoopMetric for each remaining loop
+  std::vector<LoopMetric> metrics_; // one LoopMetric for each remaining loop, then one for each inner curve
+  std::size_t boundary_loops_ = 0;  // number of metrics that belong to the boundary
   std::vector<Site> sites_;
   std::vector<LocalIndex> loop_first_; // the first site of each loop
   std::vector<SiteTree>

@@ -49,7 +49,7 @@ BoundaryRefiner::ChordRecord BoundaryRefiner::chord_from(LocalIndex k, polygon::
 std::vector<LocalIndex> BoundaryRefiner::along_loops(std::vector<LocalIndex>& loop_start) const {
   std::vector<LocalIndex> order;
   order.reserve(sites_.size());
-  for (const LocalIndex first : loop_first_) {
+  for (const LocalIndex first : std::span(loop_first_).first(boundary_loops_)) {
     loop_start.push_back(static_cast<LocalIndex>(order.size()));
     LocalIndex k = first;
     do {
@@ -59,6 +59,32 @@ std::vector<LocalIndex> BoundaryRefiner::along_loops(std::vector<LocalIndex>& lo
   }
   loop_start.push_back(static_cast<LocalIndex>(order.size()));
   return order;
+}
+
+/// The chords of the curves inside, and their sites that do not lie on the boundary.
+polygon::InnerChords BoundaryRefiner::inner_chords() const {
+  polygon::InnerChords inner;
+  std::vector<std::pair<Vec2, std::uint8_t>> sites;
+  for (std::size_t loop = boundary_loops_; loop < loop_first_.size(); ++loop) {
+    LocalIndex k = loop_first_[loop];
+    do {
+      const Site& site = sites_[k];
+      if (site.vertex == k) // of several curves' ends the first one
+        sites.emplace_back(site.position, site.kind != SiteKind::plain);
+      if (site.next >= 0)
+        inner.chords.push_back({{site.position, next(site).position},
+                                metrics_[loop].loop().pieces[at(metrics_[loop].place(site.t).piece)].part});
+      k = site.next;
+    } while (k >= 0 && k != loop_first_[loop]);
+  }
+  std::sort(sites.begin(), sites.end(),
+            [](const auto& a, const auto& b) { return geometry::lexicographically_less(a.first, b.first); });
+  for (const auto& [position, corner] : sites) {
+    inner.sites.push_back(position);
+    inner.corner.push_back(corner);
+  }
+  inner.sort_ends();
+  return inner;
 }
 
 BoundarySites BoundaryRefiner::result() const {
@@ -75,7 +101,7 @@ BoundarySites BoundaryRefiner::result() const {
     chords[k] = chord_from(order[k], out.sites[k]);
   });
   double shortest = std::numeric_limits<double>::infinity();
-  for (std::size_t loop = 0; loop < loop_first_.size(); ++loop) {
+  for (std::size_t loop = 0; loop < boundary_loops_; ++loop) {
     const LocalIndex first = out.loop_start[loop], end = out.loop_start[loop + 1];
     for (LocalIndex k = first; k < end; ++k) {
       const ChordRecord& chord = chords[k];
@@ -89,6 +115,7 @@ BoundarySites BoundaryRefiner::result() const {
     }
   }
   out.shortest = std::sqrt(shortest);
+  out.inner = inner_chords();
   out.dropped = dropped_;
   if (dropped_.any())
     name_parts(boundary_without(boundary_, dropped_), out);

@@ -136,6 +136,45 @@ void FixedPoints::take_corners() {
     cornered_ = cornered->result();
 }
 
+void FixedPoints::hold(const geometry::InnerCurves& curves) {
+  if (curves.empty())
+    return;
+  const geometry::Box box = given_boundary_.bounding_box();
+  const double spacing = BoundaryRules::held_spacing * std::max(box.width(), box.height());
+  std::vector<Vec2> nodes;
+  for (const geometry::InnerArc& arc : curves.arcs)
+    for (const geometry::Piece& piece : arc.pieces) {
+      const double length = piece.length(), parts = std::fmax(1, std::ceil(length / spacing));
+      if (&piece != &arc.pieces.front() || arc.closed)
+        held_.push_back(piece.start);
+      for (int k = 1; k < static_cast<int>(parts); ++k)
+        held_.push_back(lattice_.snap(piece.point(k / parts * length)));
+      if (&piece == &arc.pieces.front())
+        nodes.push_back(piece.start);
+      if (&piece == &arc.pieces.back())
+        nodes.push_back(piece.end);
+      for (const Vec2 p : inside_)
+        if (p == piece.start || p == piece.end)
+          on_curves_.push_back(p);
+        else if (piece.distance(p) <= tolerance_)
+          throw GeometryError(fmt::format("{}: the fixed point {} lies on the curve '{}', but is not a vertex of it; "
+                                          "make it a vertex of the curve instead",
+                                          label(p), Place(p, 12), curves.names[static_cast<std::size_t>(piece.part)]));
+    }
+  const geometry::PieceTree boundary(given_boundary_);
+  for (const Vec2 p : nodes)
+    if (boundary.distance(p) > tolerance_)
+      held_.push_back(p);
+  std::sort(on_curves_.begin(), on_curves_.end(), geometry::lexicographically_less);
+  std::erase_if(inside_, [this](Vec2 p) {
+    return std::binary_search(on_curves_.begin(), on_curves_.end(), p, geometry::lexicographically_less);
+  });
+  tree_ = tree_of(inside_);
+  held_.insert(held_.end(), inside_.begin(), inside_.end());
+  std::sort(held_.begin(), held_.end(), geometry::lexicographically_less);
+  held_.erase(std::unique(held_.begin(), held_.end()), held_.end());
+}
+
 const std::string& FixedPoints::label(Vec2 p) const {
   const auto found = std::lower_bound(all_.begin(), all_.end(), p, geometry::lexicographically_less);
   return given_[source_[static_cast<std::size_t>(found - all_.begin())]].label;
@@ -186,7 +225,7 @@ void FixedPoints::place_among(mesh::SiteList& sites, const mesh::TileRange& tile
   thread_loop(static_cast<std::ptrdiff_t>(sites.size()), 256, [&](std::ptrdiff_t item, int) {
     const auto k = static_cast<std::size_t>(item);
     const mesh::Site& site = sites[k];
-    taken[k] = site.boundary == mesh::fixed_site || // from an earlier stage
+    taken[k] = (site.boundary == mesh::fixed_site && held_.empty()) || // from an earlier stage
                (site.boundary == mesh::free_site &&
                 is_near(site.position, BoundaryRules::fixed_clearance * size.size(site.position)));
   });

@@ -37,6 +37,15 @@ public:
   std::span<const geometry::Vec2> all() const { return all_; }
   /// The fixed points that are not on the boundary.
   std::span<const geometry::Vec2> inside() const { return inside_; }
+  /// Returns the points that must stay inside when the boundary is simplified: inside(), and points of the curves that
+  /// were given to hold().
+  std::span<const geometry::Vec2> held() const { return held_.empty() ? inside() : held_; }
+  /// Returns the fixed points that are vertices of curves, in lexicographic order. They no longer are in inside().
+  std::span<const geometry::Vec2> on_curves() const { return on_curves_; }
+  /// @brief Lets the simplification of the boundary keep the curves inside the shape. Takes the points that are
+  /// vertices of curves out of inside().
+  /// @throws GeometryError if a point of inside() lies on a curve, but is not a vertex of it
+  void hold(const geometry::InnerCurves& curves);
   /// Returns the given boundary with a corner at each fixed point that lies on it. If there is no such point, returns a
   /// reference to the given boundary itself.
   const geometry::Boundary& cornered_boundary() const { return cornered_ ? *cornered_ : given_boundary_; }
@@ -64,6 +73,8 @@ private:
   const geometry::Lattice lattice_;
   double tolerance_;                         ///< largest distance from a curve at which a point counts as lying on it
   std::vector<geometry::Vec2> all_, inside_; ///< in lexicographic order
+  std::vector<geometry::Vec2> on_curves_;    ///< in lexicographic order; a point may occur twice
+  std::vector<geometry::Vec2> held_;         ///< inside_ and points of curves; empty if there are no curves
   std::vector<std::size_t> source_;          ///< index in given_ of each point of all_
   SiteTree tree_;                            ///< search tree of the points in inside_
 };

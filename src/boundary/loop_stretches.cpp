@@ -35,12 +35,12 @@ struct Junctions {
   std::vector<double> others;   // t of those that may be left out: features below the resolution
 };
 
+/// The two sides of an open curve, which is a loop there and back, need no shells at its ends.
 LoopCorner corner_at(const LoopMetric& metric, std::size_t piece) {
-  return {metric.piece_t(piece),
-          metric.loop().pieces[piece].start,
-          metric.loop().turn_degrees(piece) > BoundaryRules::sharp_turn,
-          {},
-          {}};
+  const geometry::Loop& loop = metric.loop();
+  const bool is_end = loop.turning > 0 && (piece == 0 || piece == loop.turning);
+  const bool sharp = !is_end && (loop.pieces[piece].sharp || loop.turn_degrees(piece) > BoundaryRules::sharp_turn);
+  return {metric.piece_t(piece), loop.pieces[piece].start, sharp, {}, {}};
 }
 
 /// A junction that turns by more than the corner angle, or where parts of the shape meet.

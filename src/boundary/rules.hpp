@@ -90,6 +90,9 @@ struct BoundaryRules {
   /// [side of the container] A fixed point within this distance of a curve lies on the curve, because coordinates in
   /// files are rounded.
   static constexpr double on_boundary = 1e-10;
+  /// [extent of the shape] Distance between the points of a curve inside that hold the boundary while it is simplified,
+  /// in addition to the vertices of the curve. Not measured.
+  static constexpr double held_spacing = 1.0 / 512;
   /// [h] Free sites nearer than this to a fixed point are removed at the start.
   static constexpr double fixed_clearance = 0.6;
 };

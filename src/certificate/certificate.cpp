@@ -29,9 +29,10 @@ struct Tallies {
   std::uint64_t hash_of_listings = 0, hash_of_triangles = 0, hash_of_written = 0;
   std::uint64_t hash_of_facets = 0, hash_of_written_facets = 0;
   std::uint64_t hash_of_points = 0, hash_of_written_points = 0;
-  std::int64_t not_positive = 0, not_delaunay = 0, incomplete = 0, unused = 0, corners = 0, junctions = 0, fixed = 0;
+  std::int64_t not_positive = 0, not_delaunay = 0, incomplete = 0, unused = 0, corners = 0, junctions = 0, fixed = 0,
+               curve_edges = 0;
 
-  static constexpr std::size_t members = 19;
+  static constexpr std::size_t members = 20;
 
   /// Calls visit(member) for all members of `counts`.
   template <class Self, class Visit>
@@ -43,7 +44,7 @@ struct Tallies {
           &counts.hash_of_written_facets, &counts.hash_of_points, &counts.hash_of_written_points})
       visit(*hash);
     for (auto* number : {&counts.not_positive, &counts.not_delaunay, &counts.incomplete, &counts.unused,
-                         &counts.corners, &counts.junctions, &counts.fixed})
+                         &counts.corners, &counts.junctions, &counts.fixed, &counts.curve_edges})
       visit(*number);
   }
 };
@@ -181,6 +182,7 @@ private:
     const bool is_corner = b >= 0 && view_.polygon.sites[at(b)].corner;
     if (b == mesh::fixed_site || is_corner)
       counts_.fixed += std::binary_search(view_.fixed.begin(), view_.fixed.end(), p, geometry::lexicographically_less);
+    count_curve_edges(site, p);
     if (b < 0 || p != view_.polygon.sites[at(b)].position)
       return;
     counts_.corners += is_corner;
@@ -191,6 +193,14 @@ private:
     ++counts_.facets;
     counts_.hash_of_facets +=
         facet_hash(numbering_.global_id(numbering_.vertex(site)), ids_[0], to_next.tag, to_next.part);
+  }
+
+  /// Counts the chords of inner curves that begin here and are edges, and whose diametral discs hold no apex.
+  void count_curve_edges(LocalIndex, Vec2 p) {
+    const polygon::InnerChords& inner = view_.polygon.inner;
+    for (const LocalIndex half : inner.at(p))
+      for (std::size_t k = 0; half % 2 == 0 && k < fan_.edges; ++k)
+        counts_.curve_edges += fan_.positions[k] == inner.other_end(half);
   }
 
   void count_triangles(LocalIndex own, Vec2 p) {
@@ -346,6 +356,9 @@ void add_point_checks(const Counts& counts, const StageView& view, std::int64_t 
     checks.push_back(
         check("fixed_points", static_cast<std::int64_t>(view.fixed.size()), counts.fixed,
               "fixed points that are vertices of the mesh, with equal bits after rounding to the coordinate lattice"));
+  if (const polygon::InnerChords& inner = view.polygon.inner; !inner.empty())
+    checks.push_back(check("curve_edges", std::ssize(inner.chords), counts.curve_edges,
+                           "chords of the curves inside that are edges of the mesh, with equal bits"));
   checks.push_back(check("unused_points", 0, counts.unused, "points without a triangle"));
   const ExactArea polygon = polygon_area(view.polygon, view.lattice);
   checks.push_back({"area", polygon.value(view.lattice), counts.area.value(view.lattice),

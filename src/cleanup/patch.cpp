@@ -14,6 +14,7 @@ void Patch::start(Vec2 center, double half_width, double h) {
   size.assign(PatchMesh::frame, h);
   boundary.assign(PatchMesh::frame, {});
   rim.clear();
+  walls.clear();
   broken = false;
 }
 
@@ -37,6 +38,8 @@ LocalIndex Patch::missing_chords() const {
   LocalIndex missing = 0;
   for (const LocalIndex v : rim)
     missing += !is_gone(v) && boundary[at(v)].next >= 0 && !mesh.apexes(v, boundary[at(v)].next);
+  for (const auto& [u, w] : walls)
+    missing += !mesh.apexes(u, w);
   return missing;
 }
 
@@ -45,6 +48,11 @@ std::optional<geometry::Segment> Patch::entered_disc(Vec2 p) const {
     if (const LocalIndex next = boundary[at(v)].next;
         next >= 0 && !is_gone(v) && geometry::diametral_side(mesh.position(v), mesh.position(next), p) <= 0)
       return chord(v);
+  for (const auto& [u, w] : walls) {
+    const Vec2 a = mesh.position(u), b = mesh.position(w);
+    if (geometry::diametral_side(a, b, p) <= 0)
+      return geometry::cross(b - a, p - a) < 0 ? geometry::Segment{b, a} : geometry::Segment{a, b};
+  }
   return std::nullopt;
 }
 
@@ -113,6 +121,7 @@ bool PatchStart::build(Vec2 center, double size, std::span<const PatchSite> site
   patch_.mesh.connect_all();
   patch_.gain = 0;
   link_boundary();
+  link_curves();
   missing_chords_ = patch_.missing_chords();
   return std::any_of(sites.begin(), sites.end(), [this](const PatchSite& site) { return is_deep(site); });
 }
@@ -164,6 +173,27 @@ void PatchStart::link_boundary() {
     if (own.next < 0 || own.previous < 0)
       patch_.role[at(v)] = std::min(patch_.role[at(v)], VertexRole::scored);
   }
+}
+
+/// Finds the chords of inner curves whose ends are both in the patch.
+void PatchStart::link_curves() {
+  const polygon::InnerChords& inner = boundary_.inner;
+  if (inner.empty())
+    return;
+  std::vector<std::pair<Vec2, LocalIndex>> vertices; // that may be ends
+  for (LocalIndex v = PatchMesh::frame; v < patch_.mesh.vertices(); ++v)
+    if (patch_.role[at(v)] != VertexRole::free)
+      vertices.emplace_back(patch_.mesh.position(v), v);
+  const auto before = [](const auto& a, const auto& b) { return geometry::lexicographically_less(a.first, b.first); };
+  std::sort(vertices.begin(), vertices.end(), before);
+  for (const auto& [p, v] : vertices)
+    for (const LocalIndex half : inner.at(p))
+      if (half % 2 == 0) {
+        const std::pair<Vec2, LocalIndex> other{inner.other_end(half), -1};
+        const auto found = std::lower_bound(vertices.begin(), vertices.end(), other, before);
+        if (found != vertices.end() && found->first == other.first)
+          patch_.walls.push_back({std::min(v, found->second), std::max(v, found->second)});
+      }
 }
 
 } // namespace trime::cleanup

@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace trime::cleanup {
@@ -81,10 +82,15 @@ struct Patch {
   bool is_gone(LocalIndex v) const { return role[at(v)] == VertexRole::gone; }
   bool on_boundary(LocalIndex v) const { return boundary[at(v)].site >= 0; }
   bool is_chord(LocalIndex from, LocalIndex to) const { return boundary[at(from)].next == to; }
+  /// Returns whether an edge is a chord of a curve inside the shape.
+  bool is_wall(LocalIndex u, LocalIndex w) const {
+    return std::find(walls.begin(), walls.end(), std::pair(std::min(u, w), std::max(u, w))) != walls.end();
+  }
   geometry::Segment chord(LocalIndex v) const { return {mesh.position(v), mesh.position(boundary[at(v)].next)}; }
-  /// Returns the number of boundary edges of the loops that are not edges of the triangulation.
+  /// Returns the number of boundary edges and chords of inner curves that are not edges of the triangulation.
   LocalIndex missing_chords() const;
-  /// Returns a boundary edge whose closed diametral disc contains p, if there is one.
+  /// Returns a boundary edge, or a chord of a curve with p on its left, whose closed diametral disc contains p, if
+  /// there is one.
   std::optional<geometry::Segment> entered_disc(geometry::Vec2 p) const;
 
   /// Returns whether a triangle lies inside the shape and has a vertex whose triangles count.
@@ -130,8 +136,10 @@ struct Patch {
   std::vector<double> size;             ///< h by vertex
   std::vector<BoundaryVertex> boundary; ///< by vertex: place on the boundary
   std::vector<LocalIndex> rim;          ///< vertices on the boundary, including vertices that were removed
-  GlobalId gain = 0;                    ///< number of sites added since the start
-  bool broken = false;                  ///< an operation of the triangulation failed: the patch can no longer be used
+  std::vector<std::pair<LocalIndex, LocalIndex>>
+      walls;           ///< chords of curves inside the shape, whose ends never move; the lower vertex first
+  GlobalId gain = 0;   ///< number of sites added since the start
+  bool broken = false; ///< an operation of the triangulation failed: the patch can no longer be used
 
 private:
   bool has_inner_vertex(const PatchMesh::Triangle& triangle) const {
@@ -192,6 +200,7 @@ private:
   VertexRole role_of(const PatchSite& site) const;
   static BoundaryVertex on_boundary(const PatchSite& site);
   void link_boundary();
+  void link_curves();
 
   const polygon::BoundarySites& boundary_;
   const polygon::BoundaryCurve& curve_;

@@ -39,6 +39,15 @@ bool PatchChords::holds(const Patch& patch, LocalIndex v, const PatchMesh::Apexe
   return true;
 }
 
+/// The same for a chord of a curve inside the shape, which never changes.
+bool PatchChords::wall_holds(const Patch& patch, LocalIndex u, LocalIndex w, const PatchMesh::Apexes& apexes) const {
+  for (const LocalIndex apex : {apexes.left, apexes.right})
+    if (apex >= PatchMesh::frame && start_.has_changed(patch, apex) &&
+        geometry::diametral_side(patch.mesh.position(u), patch.mesh.position(w), patch.mesh.position(apex)) <= 0)
+      return false;
+  return true;
+}
+
 bool PatchChords::hold(const Patch& patch) const {
   LocalIndex missing = 0;
   for (const LocalIndex v : patch.rim) {
@@ -49,6 +58,13 @@ bool PatchChords::hold(const Patch& patch) const {
     if (!apexes)
       ++missing;
     else if (!holds(patch, v, *apexes))
+      return false;
+  }
+  for (const auto& [u, w] : patch.walls) {
+    const auto apexes = patch.mesh.apexes(u, w);
+    if (!apexes)
+      ++missing;
+    else if (!wall_holds(patch, u, w, *apexes))
       return false;
   }
   return missing <= start_.missing_chords();
@@ -267,9 +283,9 @@ bool PatchMover::relax_inside(Patch& patch, LocalIndex v) {
 bool PatchMover::keeps_clear(const Patch& patch, Vec2 to) const {
   if (!start_.is_off_rim(to))
     return false;
-  for (std::size_t k = 0; k < ring_.size() && !patch.rim.empty(); ++k) {
+  for (std::size_t k = 0; k < ring_.size() && !(patch.rim.empty() && patch.walls.empty()); ++k) {
     const LocalIndex u = ring_[k], w = ring_[k + 1 == ring_.size() ? 0 : k + 1];
-    if ((patch.is_chord(u, w) || patch.is_chord(w, u)) &&
+    if ((patch.is_chord(u, w) || patch.is_chord(w, u) || patch.is_wall(u, w)) &&
         geometry::diametral_side(patch.mesh.position(u), patch.mesh.position(w), to) <= 0)
       return false;
   }

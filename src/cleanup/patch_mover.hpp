@@ -49,6 +49,7 @@ private:
   bool stands_for_bent_curve(const BoundaryVertex& from, const BoundaryVertex& to, const geometry::Segment& chord,
                              double size, double arc, double length) const;
   bool holds(const Patch& patch, LocalIndex v, const PatchMesh::Apexes& apexes) const;
+  bool wall_holds(const Patch& patch, LocalIndex u, LocalIndex w, const PatchMesh::Apexes& apexes) const;
 
   const PatchStart& start_;
   double longest_bent_ = CleanupRules::bent_at_first;

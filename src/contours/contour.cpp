@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <cstring>
 #include <optional>
+#include <span>
 #include <type_traits>
 
 namespace trime::contours {
@@ -85,7 +86,53 @@ void read_lines(std::string_view text, Contour& contour, RingBuilder& builder) {
   contour.warnings.insert(contour.warnings.begin(), reader.warnings().begin(), reader.warnings().end());
 }
 
+/// Reads one line after the other; the builder of rings would refuse lines with two vertices.
+Contour parse_xy_lines(std::string_view text, const std::string& source) {
+  check_encoding(text, source);
+  Contour contour;
+  contour.source = source;
+  const std::optional<std::string> plain = without_semicolons(text, source);
+  VertexReader reader(source);
+  std::vector<FilePoint> line;
+  const auto end_line = [&] {
+    if (!line.empty())
+      add_line(contour, line, 0);
+    line.clear();
+  };
+  for_each_line(plain ? *plain : text, [&](std::string_view content, int number, bool parts) {
+    if (parts)
+      return end_line();
+    if (content.empty())
+      return;
+    if (const std::optional<Vec2> p = reader.read(content, number)) {
+      check_coordinates(*p, source, number);
+      line.push_back({*p, number});
+    }
+  });
+  end_line();
+  contour.warnings = reader.warnings();
+  if (contour.rings.empty())
+    throw GeometryError(fmt::format("{}: expected lines 'x y' of a curve, found none", source));
+  return contour;
+}
+
 } // namespace
+
+void add_line(Contour& contour, std::span<const FilePoint> vertices, int marker) {
+  ContourRing ring;
+  ring.open = vertices.size() < 4 || vertices.front().position != vertices.back().position;
+  const std::size_t count = ring.open ? vertices.size() : vertices.size() - 1;
+  for (const FilePoint& vertex : vertices.first(count)) {
+    ring.points.push_back(vertex.position);
+    ring.lines.push_back(vertex.line);
+  }
+  if (marker != 0)
+    ring.markers.assign(count, marker);
+  if (std::all_of(ring.points.begin(), ring.points.end(), [&](Vec2 p) { return p == ring.points[0]; }))
+    throw GeometryError(fmt::format("{}:{}: expected a line with two different points, found one point", contour.source,
+                                    vertices.front().line));
+  contour.rings.push_back(std::move(ring));
+}
 
 Contour parse_xy(std::string_view text, const std::string& source, Faults faults) {
   check_encoding(text, source);
@@ -246,6 +293,7 @@ public:
     visit(ring.markers);
     visit(ring.in_file);
     visit(ring.polygon);
+    visit(ring.open);
   }
   template <class Visitor, class One>
   requires std::is_same_v<std::remove_const_t<One>, MapFeature>
@@ -360,6 +408,28 @@ Contour read_contour(const std::string& path, const std::string& hint, const std
                       faults);
   }
   return parse_contour(text, path, attribute, faults);
+}
+
+Contour parse_curves(std::string_view text, const std::string& source, const std::string& attribute) {
+  check_has_attributes(source, attribute);
+  if (is_geojson(source))
+    return parse_geojson_lines(text, source, attribute);
+  refuse_geojson(text, source);
+  return parse_xy_lines(text, source);
+}
+
+Contour read_curves(const std::string& path, const std::string& hint, const std::string& attribute) {
+  refuse_unread_formats(path);
+  check_has_attributes(path, attribute);
+  for (const std::string_view extension : {".poly", ".msh"})
+    if (ends_with_extension(path, extension))
+      throw ConfigError(
+          fmt::format("{}: expected a file with the lines of a curve, found '{}'; known are .xy, .geojson "
+                      "and .shp",
+                      path, extension));
+  if (ends_with_extension(path, ".shp"))
+    return read_shapefile_lines(path, hint, attribute);
+  return parse_curves(read_file(path, hint), path, attribute);
 }
 
 std::string to_bytes(const Contour& contour) {

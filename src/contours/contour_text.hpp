@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -118,5 +119,13 @@ void check_coordinates(geometry::Vec2 p, const std::string& source, int line, co
 /// `source:record: ...` for lines that are not closed
 /// @note Serial.
 Contour read_shapefile(const std::string& path, const std::string& hint, const std::string& attribute, Faults faults);
+
+/// @brief Appends a line of a curve to the rings. A line of at least four vertices that ends where it starts is a ring.
+/// @throws GeometryError `source:line: ...` if all vertices are equal
+void add_line(Contour& contour, std::span<const FilePoint> vertices, int marker);
+
+// Read the lines of curves, see read_curves.
+Contour parse_geojson_lines(std::string_view text, const std::string& source, const std::string& attribute);
+Contour read_shapefile_lines(const std::string& path, const std::string& hint, const std::string& attribute);
 
 } // namespace trime::contours

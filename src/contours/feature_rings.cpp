@@ -39,8 +39,8 @@ std::string cleaned(std::string text) {
 
 } // namespace
 
-FeatureRings::FeatureRings(Contour& contour, std::string attribute)
-    : contour_(contour), builder_(contour), attribute_(std::move(attribute)) {
+FeatureRings::FeatureRings(Contour& contour, std::string attribute, Use use)
+    : contour_(contour), builder_(contour), attribute_(std::move(attribute)), use_(use) {
   contour_.is_map = true;
 }
 
@@ -80,6 +80,12 @@ void FeatureRings::end_feature(const std::optional<std::string>& value, const Fe
   for (Chain& chain : of_feature_) {
     for (const FilePoint& vertex : chain.vertices) // before ends are compared
       check_coordinates(vertex.position, contour_.source, vertex.line, label);
+    if (use_ == Use::curves) {
+      add_line(contour_, chain.vertices, number);
+      if (feature.number > 0)
+        std::fill(contour_.rings.back().lines.begin(), contour_.rings.back().lines.end(), feature.number);
+      continue;
+    }
     if (chain.kind == Kind::line && chain.vertices.front().position != chain.vertices.back().position) {
       chain.label = label;
       chain.feature = feature.number;

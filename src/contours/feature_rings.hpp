@@ -24,10 +24,12 @@ struct FeatureName {
 class FeatureRings {
 public:
   enum class Kind { polygon, line };
+  /// What is made of lines: rings, or lines of a curve (then the borders of polygons are such lines, too).
+  enum class Use { rings, curves };
 
   /// @param contour its member `source` must be set; receives rings, names and warnings, and must outlive this object
   /// @param attribute the attribute that names the boundary; may be empty
-  FeatureRings(Contour& contour, std::string attribute);
+  FeatureRings(Contour& contour, std::string attribute, Use use = Use::rings);
 
   /// @brief Adds a ring, or a line that may be open, to the current feature.
   /// @param continues true if the ring belongs to the same polygon as the ring before it
@@ -66,6 +68,7 @@ private:
   Contour& contour_;
   RingBuilder builder_;
   std::string attribute_;
+  Use use_;
   std::vector<Chain> of_feature_;
   std::vector<Chain> open_lines_;
   std::vector<int> open_markers_;      // marker of each open line

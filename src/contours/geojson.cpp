@@ -49,8 +49,8 @@ using Chain = std::vector<FilePoint>; // an array of positions
 /// Takes events of the parser. Whatever the type of an object turns out to be, its coordinates are kept until then.
 class GeoJsonReader {
 public:
-  GeoJsonReader(Contour& contour, const std::string& attribute, const int& line)
-      : contour_(contour), rings_(contour, attribute), attribute_(attribute), line_(line) {}
+  GeoJsonReader(Contour& contour, const std::string& attribute, const int& line, FeatureRings::Use use)
+      : contour_(contour), rings_(contour, attribute, use), attribute_(attribute), line_(line) {}
 
   bool null() { return other_value(); }
   bool boolean(bool is_true) {
@@ -252,15 +252,28 @@ private:
 
 } // namespace
 
-Contour parse_geojson(std::string_view text, const std::string& source, const std::string& attribute, Faults faults) {
+namespace {
+
+Contour parse(std::string_view text, const std::string& source, const std::string& attribute, FeatureRings::Use use,
+              Faults faults) {
   check_encoding(text, source);
   Contour contour;
   contour.source = source;
   int line = 1;
-  GeoJsonReader reader(contour, attribute, line);
+  GeoJsonReader reader(contour, attribute, line, use);
   nlohmann::json::sax_parse(LineIterator(text.data(), &line), LineIterator(text.data() + text.size(), &line), &reader);
   reader.finish(faults);
   return contour;
+}
+
+} // namespace
+
+Contour parse_geojson(std::string_view text, const std::string& source, const std::string& attribute, Faults faults) {
+  return parse(text, source, attribute, FeatureRings::Use::rings, faults);
+}
+
+Contour parse_geojson_lines(std::string_view text, const std::string& source, const std::string& attribute) {
+  return parse(text, source, attribute, FeatureRings::Use::curves, Faults::refuse);
 }
 
 } // namespace trime::contours

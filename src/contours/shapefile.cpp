@@ -159,8 +159,8 @@ private:
 
 class ShapefileReader {
 public:
-  ShapefileReader(const std::string& path, std::string_view bytes, const std::string& attribute)
-      : path_(path), file_(open(path, bytes)), rings_(contour_, attribute), attributes_(path, attribute, rings_) {
+  ShapefileReader(const std::string& path, std::string_view bytes, const std::string& attribute, FeatureRings::Use use)
+      : path_(path), file_(open(path, bytes)), rings_(contour_, attribute, use), attributes_(path, attribute, rings_) {
     contour_.source = path;
   }
 
@@ -215,12 +215,25 @@ private:
 
 } // namespace
 
-Contour read_shapefile(const std::string& path, const std::string& hint, const std::string& attribute, Faults faults) {
+namespace {
+
+Contour read(const std::string& path, const std::string& hint, const std::string& attribute, FeatureRings::Use use,
+             Faults faults) {
   const std::string bytes = read_file(path, hint); // the reason of the system if it cannot be opened
-  Contour contour = ShapefileReader(path, bytes, attribute).read(faults);
+  Contour contour = ShapefileReader(path, bytes, attribute, use).read(faults);
   if (const std::string prj = beside(path, ".prj", ".PRJ"); std::filesystem::exists(prj))
     contour.crs = std::string(trimmed(read_file(prj)));
   return contour;
+}
+
+} // namespace
+
+Contour read_shapefile(const std::string& path, const std::string& hint, const std::string& attribute, Faults faults) {
+  return read(path, hint, attribute, FeatureRings::Use::rings, faults);
+}
+
+Contour read_shapefile_lines(const std::string& path, const std::string& hint, const std::string& attribute) {
+  return read(path, hint, attribute, FeatureRings::Use::curves, Faults::refuse);
 }
 
 } // namespace trime::contours

@@ -45,6 +45,8 @@ public:
         fill_tile(first_tile() + static_cast<LocalIndex>(t), begin[static_cast<std::size_t>(t)], fans[thread],
                   meters[thread], made.mesh);
       });
+      if (!view_.polygon.inner.empty())
+        list_curve_edges(fans[0], made.mesh);
     });
     auto meter = meters.begin();
     QualitySums& sums = (*meter).sums();
@@ -72,7 +74,7 @@ private:
       mesh.points[k] = points_.position(i);
       mesh.boundary[k] = b < 0 ? 0 : view_.polygon.sites[at(b)].tag;
       mesh.size[k] = static_cast<float>(view_.size.size(points_.position(i))); // that of the state may be older
-      mesh.fixed[k] = b >= 0 ? view_.polygon.sites[at(b)].corner : b == mesh::fixed_site;
+      mesh.fixed[k] = b >= 0 ? view_.polygon.sites[at(b)].corner : b == mesh::fixed_site && is_kept(mesh.points[k]);
     });
     mesh.point_slab = {numbering_.first, numbering_.total};
     mesh.foreign = numbering_.foreign;
@@ -171,6 +173,37 @@ private:
       from_previous();
   }
 
+  /// Is it a fixed point, or a node or corner of a curve? Other sites on curves do not move, but could lie elsewhere.
+  bool is_kept(Vec2 p) const {
+    return view_.polygon.inner.is_corner(p) ||
+           std::binary_search(view_.fixed.begin(), view_.fixed.end(), p, geometry::lexicographically_less);
+  }
+
+  /// Lists the edges on curves at their lower ends, by the place of the higher one.
+  void list_curve_edges(FlatFan& fan, DistributedMesh& mesh) const {
+    const polygon::InnerChords& inner = view_.polygon.inner;
+    for (LocalIndex vertex = 0; vertex < static_cast<LocalIndex>(numbering_.order.size()); ++vertex) {
+      const LocalIndex site = numbering_.order[at(vertex)];
+      const Vec2 p = points_.position(site);
+      const std::span<const LocalIndex> ends =
+          points_.boundary(site) == mesh::free_site ? std::span<const LocalIndex>() : inner.at(p);
+      if (ends.empty())
+        continue;
+      fan.load(site);
+      std::vector<std::array<LocalIndex, 3>> found; // place and vertex of the other end, and the end here
+      for (const LocalIndex half : ends)
+        for (std::size_t k = 0; k < fan.edges; ++k)
+          if (fan.positions[k] == inner.other_end(half) && fan.place[k] > vertex)
+            found.push_back({fan.place[k], fan.vertices[k], half});
+      std::sort(found.begin(), found.end());
+      for (const auto& [place, other, half] : found) {
+        const GlobalId own = numbering_.global_id(vertex), end = numbering_.global_id(other);
+        mesh.curve_edges.push_back(half % 2 == 0 ? std::array{own, end} : std::array{end, own});
+        mesh.curve_numbers.push_back(inner.chords[at(half / 2)].curve);
+      }
+    }
+  }
+
   const StageView& view_;
   const decomposition::Numbering& numbering_;
   const sizing::SizeField& asked_;
@@ -183,8 +216,11 @@ void place_among_all(const comm::Communicator& comm, DistributedMesh& mesh) {
   const std::int64_t triangles = std::ssize(mesh.triangles), facets = std::ssize(mesh.facets);
   mesh.triangle_slab.first = comm.exclusive_scan(triangles);
   mesh.facet_slab.first = comm.exclusive_scan(facets);
-  std::array<std::int64_t, 3> sums{triangles, facets, static_cast<std::int64_t>(partial_hash(mesh))};
+  const std::int64_t curve_edges = std::ssize(mesh.curve_edges);
+  mesh.curve_slab.first = comm.exclusive_scan(curve_edges);
+  std::array<std::int64_t, 4> sums{triangles, facets, static_cast<std::int64_t>(partial_hash(mesh)), curve_edges};
   comm.sum(sums);
+  mesh.curve_slab.total = sums[3];
   mesh.triangle_slab.total = sums[0];
   mesh.facet_slab.total = sums[1];
   mesh.hash = static_cast<std::uint64_t>(sums[2]);

@@ -116,6 +116,7 @@ record::Origin origin_of(const io::Metadata& metadata) {
   origin.region = regions.empty() ? "" : regions[0];
   origin.period = {io::attribute_of<double>(metadata, "period_x"), io::attribute_of<double>(metadata, "period_y")};
   origin.crs = io::attribute_of<std::string>(metadata, "crs");
+  origin.curve_names = io::curve_names(metadata);
   return origin;
 }
 
@@ -267,8 +268,8 @@ void Mesh::write(const std::string& path, const WriteOptions& options) const {
                                   path));
   formats::refuse_to_replace(formats::paths_of(*format, path), options.overwrite, how_to_replace, comm);
   make_directory_of(file, comm);
-  formats::write(*format, path, result().mesh, {origin.part_names, {origin.region}, origin.period, origin.crs}, nullptr,
-                 comm);
+  formats::write(*format, path, result().mesh,
+                 {origin.part_names, {origin.region}, origin.curve_names, origin.period, origin.crs}, nullptr, comm);
 }
 
 Mesh make_mesh(MPI_Comm handle, const Shape& shape, const Size& size, const MeshOptions& options) {
@@ -284,7 +285,9 @@ Mesh make_mesh(MPI_Comm handle, const Shape& shape, const Size& size, const Mesh
   auto made = std::make_unique<Mesh::Implementation>();
   made->communicator = comm;
   made->result = meshing::Mesher(*comm, domain, *field, lower, log, timers).run();
-  made->origin = {boundary.part_names, domain.part_markers(), shape.text(), {boundary.periods.x, boundary.periods.y}};
+  made->origin = {
+      boundary.part_names,  domain.part_markers(), shape.text(), {boundary.periods.x, boundary.periods.y}, {},
+      domain.curves().names};
   made->metadata = record::describe(made->result, made->origin, text_of(size), *comm);
   return Mesh(std::move(made));
 }
@@ -297,7 +300,8 @@ Mesh read_mesh(MPI_Comm handle, const std::string& path) {
   auto read = std::make_unique<Mesh::Implementation>();
   read->communicator = std::make_shared<const comm::Communicator>(comm::duplicate_of(handle));
   read->metadata = io::read_metadata(
-      path, {"history", "quality", "checks", "worst_triangles", "tags", "sharp_corners", "rings", "normalization"},
+      path,
+      {"history", "quality", "checks", "worst_triangles", "tags", "sharp_corners", "rings", "curves", "normalization"},
       *read->communicator);
   read->origin = origin_of(read->metadata);
   read->result.checks = checks_of(read->metadata);

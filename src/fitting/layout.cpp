@@ -159,16 +159,17 @@ std::unique_ptr<BoundaryRefiner> make_refiner(const LayoutContext& context, std:
   const FeatureRule rule{keeps_all ? 0 : context.options.features.tolerance,
                          keeps_all ? 0 : BoundaryRules::least_perimeter, context.options.features.components,
                          context.options.features.component_place};
-  const geometry::Boundary& curves = generalised_curves(context, fitted, stage);
+  const auto curves = std::make_shared<const boundary::LaidCurves>(generalised_curves(context, fitted, stage),
+                                                                   context.domain.curves(), context.fixed.on_curves());
   const auto make = [&](const BoundarySizes& sizes) {
     return std::make_unique<BoundaryRefiner>(curves, sizes, context.lattice, context.options.features.corner_angle,
-                                             context.fixed.inside(), rule, affordable);
+                                             context.fixed.inside(), context.fixed.held(), rule, affordable);
   };
   if (stage.size->is_uniform() || stage.limited_size) // samples of a steep size would lie too far apart
     return make({*stage.size, asked});
   std::shared_ptr<const SizeSamples>& samples = stage.curves ? fitted.curves.samples : fitted.samples;
   if (!samples || !samples->serve(fitted.factor))
-    samples = std::make_shared<SizeSamples>(curves, context.relative_size, *stage.scaled_size);
+    samples = std::make_shared<SizeSamples>(curves->all(), context.relative_size, *stage.scaled_size);
   return make({*stage.size, asked, {*samples, *stage.scaled_size, stage.lowered_size.get(), stage.coarsening}});
 }
 
@@ -256,6 +257,24 @@ bool needs_lowering(const LayoutContext& context, const Stage& laid) {
   return needed;
 }
 
+namespace {
+
+/// Throws if a site of a curve lies outside: the boundary was simplified across it.
+void check_curves_inside(const LayoutContext& context, const Stage& laid) {
+  for (const polygon::InnerChord& chord : laid.polygon.inner.chords) {
+    const geometry::Vec2 middle = context.lattice.snap(0.5 * (chord.ends.a + chord.ends.b));
+    if (laid.guard->inside(middle))
+      continue;
+    throw GeometryError(
+        fmt::format("curve '{}' leaves the meshed shape at {}, where the boundary is simplified: expected a curve "
+                    "inside; use more points, or keep_features = true, or set meshing.components so that the part of "
+                    "the shape with the curve is meshed",
+                    context.domain.curves().names[static_cast<std::size_t>(chord.curve)], Place(middle, 10)));
+  }
+}
+
+} // namespace
+
 void complete(const LayoutContext& context, Stage& trial, double grid_coarsening) {
   const auto time = context.timers.scope("boundary");
   if (trial.polygon.overfull)
@@ -263,6 +282,7 @@ void complete(const LayoutContext& context, Stage& trial, double grid_coarsening
   comm::run_agreed(context.comm, [&] {
     trial.guard = std::make_unique<BoundaryGuard>(trial.polygon, context.lattice);
     context.fixed.check_inside(*trial.guard, trial.polygon.dropped.other_loops);
+    check_curves_inside(context, trial);
   });
   trial.state = make_state(context, trial.polygon, grid_coarsening * trial.typical_size);
   placing::share_by_density(trial, *trial.size, context.lattice, grid_coarsening);
@@ -278,6 +298,26 @@ void rescale(const LayoutContext& context, FittedSize& fitted, Stage& laid, doub
     laid.simplified.coarseness = coarseness(fitted);
 }
 
+namespace {
+
+/// Replaces the sites on curves of an earlier stage by those of this one that lie in the tiles.
+void place_on_curves(const Stage& stage, const mesh::TileRange& tiles, mesh::SiteList& sites) {
+  if (stage.polygon.inner.empty())
+    return;
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < sites.size(); ++k)
+    if (sites[k].boundary != mesh::fixed_site)
+      sites[kept++] = sites[k];
+  sites.resize(kept);
+  for (const geometry::Vec2 p : stage.polygon.inner.sites) {
+    const LocalIndex tile = tiles.grid.place(p).tile;
+    if (tile >= tiles.first && tile < tiles.last)
+      sites.push_back({p, mesh::fixed_site});
+  }
+}
+
+} // namespace
+
 void place_sites(const LayoutContext& context, Stage& stage, mesh::SiteList inner) {
   const mesh::TileRange tiles = placing::own_share(stage);
   if (context.given_boundary.periods.any())
@@ -287,6 +327,7 @@ void place_sites(const LayoutContext& context, Stage& stage, mesh::SiteList inne
   for (std::ptrdiff_t b = on_boundary * context.comm.rank() / ranks;
        b < on_boundary * (context.comm.rank() + 1) / ranks; ++b)
     inner.push_back({stage.polygon.sites[static_cast<std::size_t>(b)].position, static_cast<std::int32_t>(b)});
+  place_on_curves(stage, tiles, inner);
   comm::run_agreed(context.comm, [&] { context.fixed.place_among(inner, tiles, *stage.size); });
   stage.state->distribute(std::move(inner));
 }

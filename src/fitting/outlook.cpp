@@ -80,10 +80,10 @@ bool keeps_all(const LayoutContext& context, double factor) {
       return;
     const sizing::ScaledSize size = context.asked_size(factor);
     keeps =
-        !boundary::drop_small_loops(given, size, boundary::BoundaryRules::least_perimeter, context.fixed.inside())
+        !boundary::drop_small_loops(given, size, boundary::BoundaryRules::least_perimeter, context.fixed.held())
              .any() &&
         !(generalises(context) && generalise::would_generalise(given, generalised_size(context, size), context.lattice,
-                                                               generalise_choice(context), context.fixed.inside()));
+                                                               generalise_choice(context), context.fixed.held()));
   });
   return by_one ? context.comm.sum(std::int64_t{keeps}) > 0 : keeps;
 }

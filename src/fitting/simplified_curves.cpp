@@ -67,7 +67,7 @@ namespace {
 
 std::unique_ptr<generalise::Generalised> generalised(const LayoutContext& context, const Boundary& from,
                                                      const sizing::SizeField& h) {
-  return generalise::generalise(from, h, context.lattice, generalise_choice(context), context.fixed.inside());
+  return generalise::generalise(from, h, context.lattice, generalise_choice(context), context.fixed.held());
 }
 
 /// Thins the given boundary for this factor and larger ones, unless it was for about this one.
@@ -79,7 +79,7 @@ void thin_ahead(const LayoutContext& context, const sizing::SizeField& size, dou
   curves.thinned_factor = factor / ahead;
   curves.thinned.reset(); // before there is another one
   curves.thinned = generalise::thinned(context.fixed.cornered_boundary(), sizing::ScaledSize(size, 1 / ahead),
-                                       context.lattice, context.fixed.inside());
+                                       context.lattice, context.fixed.held());
 }
 
 /// @brief Simplifies with smaller sizes where the curves came too far from the given ones. Null if they still do after

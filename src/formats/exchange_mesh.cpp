@@ -26,6 +26,8 @@ void check_range(std::int64_t number, std::size_t count, const char* what) {
 
 ExchangeMesh::ExchangeMesh(const mesh::DistributedMesh& mesh, const Names& names, const comm::Communicator& comm)
     : mesh_(mesh), names_(names), comm_(comm) {
+  line_names_ = names.parts;
+  line_names_.insert(line_names_.end(), names.curves.begin(), names.curves.end());
   count();
   label_points();
 }
@@ -33,12 +35,16 @@ ExchangeMesh::ExchangeMesh(const mesh::DistributedMesh& mesh, const Names& names
 void ExchangeMesh::count() {
   constexpr double huge = std::numeric_limits<double>::max();
   std::array<double, 2> least{huge, huge}, most{-huge, -huge};
-  facets_of_part_.assign(names_.parts.size(), 0);
+  lines_of_.assign(line_names_.size(), 0);
   triangles_of_region_.assign(names_.regions.size(), 0);
   comm::run_agreed(comm_, [&] {
     for (const std::int32_t part : mesh_.facet_parts) {
       check_range(part, names_.parts.size(), "part");
-      ++facets_of_part_[static_cast<std::size_t>(part)];
+      ++lines_of_[static_cast<std::size_t>(part)];
+    }
+    for (const std::int32_t curve : mesh_.curve_numbers) {
+      check_range(curve, names_.curves.size(), "curve");
+      ++lines_of_[names_.parts.size() + static_cast<std::size_t>(curve)];
     }
     for (std::int64_t row = 0; row < std::ssize(mesh_.triangles); ++row) {
       check_range(region(row) - 1, names_.regions.size(), "region");
@@ -49,7 +55,7 @@ void ExchangeMesh::count() {
       most = {std::max(most[0], p.x), std::max(most[1], p.y)};
     }
   });
-  comm_.sum(facets_of_part_);
+  comm_.sum(lines_of_);
   comm_.sum(triangles_of_region_);
   comm_.min(least);
   comm_.max(most);
@@ -61,9 +67,9 @@ void ExchangeMesh::count() {
 void ExchangeMesh::label_points() {
   const std::vector<std::int64_t> firsts = comm_.all_gather(mesh_.point_slab.first);
   std::vector<PointLabel> labels;
-  for (std::size_t k = 0; k < mesh_.facets.size(); ++k)
-    for (const GlobalId point : mesh_.facets[k])
-      labels.push_back({point, facet_label(static_cast<std::int64_t>(k))});
+  for (std::int64_t row = 0; row < rank_lines(); ++row)
+    for (const GlobalId point : line(row))
+      labels.push_back({point, line_label(row)});
   std::sort(labels.begin(), labels.end(), [](const PointLabel& a, const PointLabel& b) {
     return a.point != b.point ? a.point < b.point : a.label < b.label;
   });

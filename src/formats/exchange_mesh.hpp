@@ -42,16 +42,29 @@ public:
   const comm::Communicator& comm() const { return comm_; }
   GlobalId points() const { return mesh_.point_slab.total; }
   GlobalId triangles() const { return mesh_.triangle_slab.total; }
-  GlobalId facets() const { return mesh_.facet_slab.total; }
-  /// Return the number of boundary edges of a part, and of triangles of a region, over all ranks.
-  GlobalId facets_of_part(std::size_t part) const { return facets_of_part_[part]; }
+  /// Returns the number of edges with labels over all ranks: edges on the boundary, and edges on curves inside. On each
+  /// rank the former come first.
+  GlobalId lines() const { return mesh_.facet_slab.total + mesh_.curve_slab.total; }
+  std::int64_t rank_lines() const { return std::ssize(mesh_.facets) + std::ssize(mesh_.curve_edges); } ///< on this rank
+  /// Returns the names of these edges: label k + 1 has the name k. First the parts of the boundary, then the curves.
+  const std::vector<std::string>& line_names() const { return line_names_; }
+  /// Return the number of edges with a name, and of triangles of a region, over all ranks.
+  GlobalId lines_of(std::size_t name) const { return lines_of_[name]; }
   GlobalId triangles_of_region(std::size_t region) const { return triangles_of_region_[region]; }
   geometry::Vec2 lower() const { return lower_; }
   geometry::Vec2 upper() const { return upper_; }
 
-  /// Return the label of a boundary edge, the region of a triangle, and the label of a point (0 inside); `row` counts
-  /// on this rank.
-  std::int64_t facet_label(std::int64_t row) const { return mesh_.facet_parts[static_cast<std::size_t>(row)] + 1; }
+  /// Return the ends and the label of an edge, the region of a triangle, and the label of a point (0 inside); `row`
+  /// counts on this rank.
+  const std::array<GlobalId, 2>& line(std::int64_t row) const {
+    const auto k = static_cast<std::size_t>(row), facets = mesh_.facets.size();
+    return k < facets ? mesh_.facets[k] : mesh_.curve_edges[k - facets];
+  }
+  std::int64_t line_label(std::int64_t row) const {
+    const auto k = static_cast<std::size_t>(row), facets = mesh_.facets.size();
+    return 1 + (k < facets ? mesh_.facet_parts[k]
+                           : static_cast<std::int64_t>(names_.parts.size()) + mesh_.curve_numbers[k - facets]);
+  }
   std::int64_t region(std::int64_t row) const {
     return mesh_.region.empty() ? 1 : mesh_.region[static_cast<std::size_t>(row)];
   }
@@ -73,9 +86,9 @@ public:
             }};
   }
   template <class Append>
-  io::TextRows facet_rows(const Append& append) const {
-    return {std::ssize(mesh_.facets), [this, append](std::int64_t row, std::string& text) {
-              append(row, mesh_.facet_slab.first + row, mesh_.facets[static_cast<std::size_t>(row)], text);
+  io::TextRows line_rows(const Append& append) const {
+    return {rank_lines(), [this, append](std::int64_t row, std::string& text) {
+              append(row, mesh_.facet_slab.first + mesh_.curve_slab.first + row, line(row), text);
             }};
   }
 
@@ -86,7 +99,8 @@ private:
   const mesh::DistributedMesh& mesh_;
   const Names& names_;
   const comm::Communicator& comm_;
-  std::vector<std::int64_t> facets_of_part_, triangles_of_region_;
+  std::vector<std::string> line_names_;
+  std::vector<std::int64_t> lines_of_, triangles_of_region_;
   std::vector<std::int32_t> point_labels_; // label of each point of the slab
   geometry::Vec2 lower_, upper_;
 };

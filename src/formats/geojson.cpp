@@ -22,8 +22,8 @@ public:
   explicit Places(const ExchangeMesh& exchange) : first_(exchange.mesh().point_slab.first) {
     const mesh::DistributedMesh& mesh = exchange.mesh();
     foreign_ = mesh.foreign;
-    for (const auto& facet : mesh.facets)
-      for (const GlobalId id : facet)
+    for (std::int64_t row = 0; row < exchange.rank_lines(); ++row)
+      for (const GlobalId id : exchange.line(row))
         if (id < first_ || id >= first_ + std::ssize(mesh.points))
           foreign_.push_back(id);
     std::sort(foreign_.begin(), foreign_.end());
@@ -86,8 +86,8 @@ std::vector<std::string> quoted(const std::vector<std::string>& names) {
 
 std::vector<FilePlan> plan_geojson(const ExchangeMesh& mesh, const std::string& path) {
   const auto places = std::make_shared<const Places>(mesh); // shared: the rows outlive this function
-  const std::vector<std::string> regions = quoted(mesh.names().regions), parts = quoted(mesh.names().parts);
-  const GlobalId last = mesh.facets() - 1;
+  const std::vector<std::string> regions = quoted(mesh.names().regions), parts = quoted(mesh.line_names());
+  const GlobalId last = mesh.lines() - 1;
   return {
       {path,
        {mesh.once("{\"type\":\"FeatureCollection\",\"features\":[\n"),
@@ -103,9 +103,9 @@ std::vector<FilePlan> plan_geojson(const ExchangeMesh& mesh, const std::string& 
           to.pop_back();
           to += last < 0 && id + 1 == mesh.triangles() ? "]]}}\n" : "]]}},\n";
         }),
-        mesh.facet_rows([&mesh, places, parts, last](std::int64_t row, GlobalId id, const std::array<GlobalId, 2>& ends,
-                                                     std::string& to) {
-          const std::int64_t label = mesh.facet_label(row);
+        mesh.line_rows([&mesh, places, parts, last](std::int64_t row, GlobalId id, const std::array<GlobalId, 2>& ends,
+                                                    std::string& to) {
+          const std::int64_t label = mesh.line_label(row);
           append_head(to, {"edge", id, "label", label, parts[static_cast<std::size_t>(label - 1)], "LineString"});
           to += '[';
           append_place(to, (*places)[ends[0]]);

@@ -25,15 +25,15 @@ std::string quoted(std::string name) {
 /// do not read an entity without elements.
 std::vector<std::size_t> parts_with_edges(const ExchangeMesh& mesh) {
   std::vector<std::size_t> parts;
-  for (std::size_t part = 0; part < mesh.names().parts.size(); ++part)
-    if (mesh.facets_of_part(part) > 0)
+  for (std::size_t part = 0; part < mesh.line_names().size(); ++part)
+    if (mesh.lines_of(part) > 0)
       parts.push_back(part);
   return parts;
 }
 
 /// meshio knows a group by its name alone: a region that is called like a part of the boundary gets "region" in front.
 std::string surface_name(std::string name, const ExchangeMesh& mesh, const std::vector<std::size_t>& parts) {
-  const auto is_taken = [&](std::size_t part) { return mesh.names().parts[part] == name; };
+  const auto is_taken = [&](std::size_t part) { return mesh.line_names()[part] == name; };
   while (std::any_of(parts.begin(), parts.end(), is_taken))
     name = "region " + name;
   return name;
@@ -118,18 +118,18 @@ void add_nodes(const ExchangeMesh& mesh, std::vector<io::TextRows>& rows) {
 
 /// Edges come first and keep their numbers in the mesh; so do the triangles after them.
 void add_elements(const ExchangeMesh& mesh, std::vector<io::TextRows>& rows) {
-  const GlobalId facets = mesh.facets(), elements = facets + mesh.triangles();
+  const GlobalId facets = mesh.lines(), elements = facets + mesh.triangles();
   const std::vector<std::size_t> parts = parts_with_edges(mesh);
   const std::size_t surfaces = mesh.names().regions.size();
   std::string text = "$Elements\n";
   append_counts(text, {static_cast<std::int64_t>(parts.size() + surfaces), elements, 1, elements});
   rows.push_back(mesh.once(text));
   for (const std::size_t part : parts) {
-    rows.push_back(mesh.once(block(curve, part + 1, line_type, mesh.facets_of_part(part))));
+    rows.push_back(mesh.once(block(curve, part + 1, line_type, mesh.lines_of(part))));
     const auto label = static_cast<std::int64_t>(part) + 1;
-    rows.push_back(mesh.facet_rows(
+    rows.push_back(mesh.line_rows(
         [&mesh, label](std::int64_t row, GlobalId id, const std::array<GlobalId, 2>& ends, std::string& to) {
-          if (mesh.facet_label(row) == label)
+          if (mesh.line_label(row) == label)
             append_counts(to, {id + 1, ends[0] + 1, ends[1] + 1});
         }));
   }
@@ -160,7 +160,7 @@ std::vector<FilePlan> plan_gmsh(const ExchangeMesh& mesh, const std::string& pat
 
 std::vector<FilePlan> plan_gmsh2(const ExchangeMesh& mesh, const std::string& path) {
   constexpr std::int64_t tags = 2; // physical, elementary
-  const GlobalId facets = mesh.facets();
+  const GlobalId facets = mesh.lines();
   std::string lines = fmt::format("\n$EndNodes\n$Elements\n{}\n", facets + mesh.triangles()), triangles;
   append_numbers(lines, {line_type, facets, tags});
   append_numbers(triangles, {triangle_type, mesh.triangles(), tags});
@@ -172,8 +172,8 @@ std::vector<FilePlan> plan_gmsh2(const ExchangeMesh& mesh, const std::string& pa
           append_place(to, p);
         }),
         mesh.once(lines),
-        mesh.facet_rows([&mesh](std::int64_t row, GlobalId id, const std::array<GlobalId, 2>& ends, std::string& to) {
-          append_numbers(to, {id + 1, mesh.facet_label(row), mesh.facet_label(row), ends[0] + 1, ends[1] + 1});
+        mesh.line_rows([&mesh](std::int64_t row, GlobalId id, const std::array<GlobalId, 2>& ends, std::string& to) {
+          append_numbers(to, {id + 1, mesh.line_label(row), mesh.line_label(row), ends[0] + 1, ends[1] + 1});
         }),
         mesh.once(triangles),
         mesh.triangle_rows(

@@ -26,9 +26,9 @@ std::vector<FilePlan> plan_medit(const ExchangeMesh& mesh, const std::string& pa
             mesh.point_rows([&mesh](std::int64_t row, GlobalId, geometry::Vec2 p, std::string& to) {
               append_line(to, p.x, p.y, mesh.point_label(row));
             }),
-            mesh.once(fmt::format("\nEdges\n{}\n", mesh.facets())),
-            mesh.facet_rows([&mesh](std::int64_t row, GlobalId, const std::array<GlobalId, 2>& ends, std::string& to) {
-              append_line(to, ends[0] + 1, ends[1] + 1, mesh.facet_label(row));
+            mesh.once(fmt::format("\nEdges\n{}\n", mesh.lines())),
+            mesh.line_rows([&mesh](std::int64_t row, GlobalId, const std::array<GlobalId, 2>& ends, std::string& to) {
+              append_line(to, ends[0] + 1, ends[1] + 1, mesh.line_label(row));
             }),
             mesh.once(fmt::format("\nTriangles\n{}\n", mesh.triangles())),
             mesh.triangle_rows(

@@ -29,6 +29,11 @@ public:
   /// O(boundary) and 8 bytes a triangle of this rank. Collective.
   explicit InnerEdges(const ExchangeMesh& mesh)
       : facets_(comm::gather_everywhere(mesh.comm(), std::vector<Side>(mesh.mesh().facets))) {
+    std::vector<Side> on_curves;
+    for (const auto& [a, b] : mesh.mesh().curve_edges)
+      on_curves.push_back({std::min(a, b), std::max(a, b)});
+    const std::vector<Side> all = comm::gather_everywhere(mesh.comm(), std::move(on_curves));
+    facets_.insert(facets_.end(), all.begin(), all.end());
     std::sort(facets_.begin(), facets_.end());
     std::int64_t edges = 0;
     for (std::size_t row = 0; row < mesh.mesh().triangles.size(); ++row) {
@@ -36,10 +41,10 @@ public:
       for (const Side side : sides(mesh.mesh().triangle_ids(row)))
         edges += is_listed(side) ? 1 : 0;
     }
-    const std::int64_t before = mesh.facets() + mesh.comm().exclusive_scan(edges);
+    const std::int64_t before = mesh.lines() + mesh.comm().exclusive_scan(edges);
     for (std::int64_t& first : first_)
       first += before;
-    total_ = mesh.facets() + mesh.comm().sum(edges);
+    total_ = mesh.lines() + mesh.comm().sum(edges);
   }
 
   /// Appends the edges of a triangle, numbered after those of the boundary.
@@ -56,7 +61,8 @@ private:
   static std::array<Side, 3> sides(const Corners& corners) {
     return {{{corners[0], corners[1]}, {corners[1], corners[2]}, {corners[2], corners[0]}}};
   }
-  /// Facets and triangles have the mesh on their left: a facet is a side in the same direction.
+  /// Facets and triangles have the mesh on their left: a facet is a side in the same direction. Edges on curves are
+  /// sides in both directions.
   bool is_listed(const Side& side) const {
     return side[0] < side[1] && !std::binary_search(facets_.begin(), facets_.end(), side);
   }
@@ -77,7 +83,7 @@ std::vector<FilePlan> plan_triangle(const ExchangeMesh& mesh, const std::string&
         mesh.point_rows([&mesh](std::int64_t row, GlobalId id, geometry::Vec2 p, std::string& to) {
           append_line(to, id + 1, p.x, p.y, mesh.point_label(row));
         }),
-        mesh.once(comments("marker", mesh.names().parts))}},
+        mesh.once(comments("marker", mesh.line_names()))}},
       {paths[1],
        {mesh.once(fmt::format("{} 3 1\n", mesh.triangles())),
         mesh.triangle_rows(
@@ -87,13 +93,13 @@ std::vector<FilePlan> plan_triangle(const ExchangeMesh& mesh, const std::string&
         mesh.once(comments("region", mesh.names().regions))}},
       {paths[2],
        {mesh.once(fmt::format("{} 1\n", inner->total())),
-        mesh.facet_rows([&mesh](std::int64_t row, GlobalId id, const std::array<GlobalId, 2>& ends, std::string& to) {
-          append_line(to, id + 1, ends[0] + 1, ends[1] + 1, mesh.facet_label(row));
+        mesh.line_rows([&mesh](std::int64_t row, GlobalId id, const std::array<GlobalId, 2>& ends, std::string& to) {
+          append_line(to, id + 1, ends[0] + 1, ends[1] + 1, mesh.line_label(row));
         }),
         mesh.triangle_rows([inner](std::int64_t row, GlobalId, const Corners& corners, std::string& to) {
           inner->append(row, corners, to);
         }),
-        mesh.once(comments("marker", mesh.names().parts))}}};
+        mesh.once(comments("marker", mesh.line_names()))}}};
 }
 
 } // namespace trime::formats

@@ -34,11 +34,11 @@ public:
   /// A value for each triangle, then one for each edge.
   template <class T, class OfTriangle, class OfFacet>
   void add_cells(const OfTriangle& of_triangle, const OfFacet& of_facet) {
-    add((mesh_.triangles() + mesh_.facets()) * static_cast<GlobalId>(sizeof(T)),
+    add((mesh_.triangles() + mesh_.lines()) * static_cast<GlobalId>(sizeof(T)),
         {mesh_.triangle_rows([of_triangle](std::int64_t row, GlobalId id, const auto&, std::string& to) {
            append_bytes(to, static_cast<T>(of_triangle(row, id)));
          }),
-         mesh_.facet_rows([of_facet](std::int64_t row, GlobalId id, const auto&, std::string& to) {
+         mesh_.line_rows([of_facet](std::int64_t row, GlobalId id, const auto&, std::string& to) {
            append_bytes(to, static_cast<T>(of_facet(row, id)));
          })});
   }
@@ -82,7 +82,7 @@ void add_cells(const ExchangeMesh& mesh, std::string& xml, Appended& data) {
   };
   const GlobalId triangles = mesh.triangles();
   xml += "<Cells>\n" + data.describe("Int64", "connectivity", 1);
-  data.add(8 * (3 * triangles + 2 * mesh.facets()), {mesh.triangle_rows(append_ids), mesh.facet_rows(append_ids)});
+  data.add(8 * (3 * triangles + 2 * mesh.lines()), {mesh.triangle_rows(append_ids), mesh.line_rows(append_ids)});
   xml += data.describe("Int64", "offsets", 1);
   data.add_cells<std::int64_t>([](std::int64_t, GlobalId id) { return 3 * (id + 1); },
                                [triangles](std::int64_t, GlobalId id) { return 3 * triangles + 2 * (id + 1); });
@@ -99,7 +99,7 @@ void add_fields(const ExchangeMesh& mesh, std::string& xml, Appended& data) {
              append_bytes(to, static_cast<std::int32_t>(mesh.point_label(row)));
            })});
   xml += "</PointData>\n<CellData>\n" + data.describe("Int32", "label", 1);
-  data.add_cells<std::int32_t>(nothing, [&mesh](std::int64_t row, GlobalId) { return mesh.facet_label(row); });
+  data.add_cells<std::int32_t>(nothing, [&mesh](std::int64_t row, GlobalId) { return mesh.line_label(row); });
   xml += data.describe("Int32", "region", 1);
   data.add_cells<std::int32_t>([&mesh](std::int64_t row, GlobalId) { return mesh.region(row); }, nothing);
   xml += "</CellData>\n";
@@ -114,8 +114,8 @@ std::vector<FilePlan> plan_vtu(const ExchangeMesh& mesh, const std::string& path
                   "header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n{}{}</FieldData>\n"
                   "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
                   std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian",
-                  numbers_by_name("label", mesh.names().parts), numbers_by_name("region", mesh.names().regions),
-                  mesh.points(), mesh.triangles() + mesh.facets());
+                  numbers_by_name("label", mesh.line_names()), numbers_by_name("region", mesh.names().regions),
+                  mesh.points(), mesh.triangles() + mesh.lines());
   add_points(mesh, xml, data);
   add_cells(mesh, xml, data);
   add_fields(mesh, xml, data);

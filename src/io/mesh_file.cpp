@@ -194,6 +194,20 @@ void write_facets(SlabFile& file, const mesh::DistributedMesh& mesh,
     file.slab(stored<std::int32_t>("/Mesh/facets/markers", mesh.facet_slab, 0, *markers));
 }
 
+/// Edges on curves inside; `labels` as the formats of other programs count them, after those of the parts.
+void write_curves(SlabFile& file, const mesh::DistributedMesh& mesh, std::size_t parts) {
+  if (mesh.curve_slab.total == 0)
+    return;
+  file.group("/Mesh/curves");
+  file.slab(stored<std::int64_t>("/Mesh/curves/topology", mesh.curve_slab, 2, mesh.curve_edges));
+  file.slab(stored<std::int32_t>("/Mesh/curves/values", mesh.curve_slab, 0, mesh.curve_numbers));
+  file.slab(computed<std::int32_t>("/Mesh/curves/labels", mesh.curve_slab, std::ssize(mesh.curve_edges),
+                                   [&mesh, parts](std::int64_t row) {
+                                     const auto k = static_cast<std::size_t>(row - mesh.curve_slab.first);
+                                     return static_cast<std::int32_t>(parts) + mesh.curve_numbers[k] + 1;
+                                   }));
+}
+
 void write_metadata(SlabFile& file, const Metadata& metadata) {
   file.group("/trime_mpi");
   for (const Attribute& attribute : metadata.attributes)
@@ -228,7 +242,7 @@ std::int64_t file_bytes(const MeshFileOptions& options, const mesh::DistributedM
   const std::int64_t per_point = 9 + 24 * vtkhdf + 16 * plain, per_triangle = 12 + 33 * vtkhdf + 24 * plain;
   constexpr std::int64_t headers = 64 << 10, per_facet = 32;
   std::int64_t bytes = headers + per_point * mesh.point_slab.total + per_triangle * mesh.triangle_slab.total +
-                       per_facet * mesh.facet_slab.total;
+                       per_facet * (mesh.facet_slab.total + mesh.curve_slab.total);
   for (const Text& text : metadata.texts)
     bytes += static_cast<std::int64_t>(text.text.size());
   for (const MetadataGroup& group : metadata.groups)
@@ -249,6 +263,7 @@ void write_hdf5(const std::string& path, const MeshFileOptions& options, const m
   if (has_plain_mesh(options))
     write_plain_mesh(file, mesh);
   write_facets(file, mesh, markers);
+  write_curves(file, mesh, options.part_markers.size());
   write_metadata(file, metadata);
   write_ranks(file, mesh, comm);
   file.verify();

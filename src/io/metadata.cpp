@@ -166,4 +166,9 @@ template const std::vector<std::int64_t>& column_of(const Metadata&, const std::
 template const std::vector<double>& column_of(const Metadata&, const std::string&, const std::string&);
 template const std::vector<std::string>& column_of(const Metadata&, const std::string&, const std::string&);
 
+std::vector<std::string> curve_names(const Metadata& metadata) {
+  return find_group(metadata, "curves") == nullptr ? std::vector<std::string>()
+                                                   : column_of<std::string>(metadata, "curves", "curve_name");
+}
+
 } // namespace trime::io

@@ -37,6 +37,12 @@ public:
     read_rows("/Mesh/facets/asked_size", H5T_NATIVE_FLOAT, 0, mesh.facet_slab, mesh.facet_sizes);
     check_ids(triangles, mesh);
     check_ids(mesh.facets, mesh);
+    if (!file_.has("/Mesh/curves/topology"))
+      return;
+    mesh.curve_slab = share(file_.rows("/Mesh/curves/topology"), comm_);
+    read_rows("/Mesh/curves/topology", H5T_NATIVE_INT64, 2, mesh.curve_slab, mesh.curve_edges);
+    read_rows("/Mesh/curves/values", H5T_NATIVE_INT32, 0, mesh.curve_slab, mesh.curve_numbers);
+    check_ids(mesh.curve_edges, mesh);
   }
 
 private:

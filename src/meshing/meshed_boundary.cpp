@@ -8,6 +8,7 @@ namespace trime::meshing {
 
 MeshedBoundary::MeshedBoundary(const RunContext& run)
     : fixed_(run.given_boundary, run.domain.frame().container(), run.domain.fixed_points(), run.lattice, run.log) {
+  fixed_.hold(run.domain.curves());
   boundary::check_choice_of_component(run.given_boundary, run.options.features);
 }
 

@@ -31,6 +31,19 @@ private:
   std::uint64_t value_ = 0;
 };
 
+void add(const Piece& piece, Hash& hash) {
+  hash.add(piece.start);
+  hash.add(piece.end);
+  hash.add(piece.part);
+  hash.add(piece.corner ? 1 : 0);
+  if (!piece.circular)
+    return;
+  hash.add(piece.center);
+  hash.add(piece.radius);
+  hash.add(piece.start_angle);
+  hash.add(piece.sweep);
+}
+
 std::int64_t hash_of(const geometry::Domain& domain) {
   Hash hash;
   hash.add(domain.frame().container().min);
@@ -38,18 +51,11 @@ std::int64_t hash_of(const geometry::Domain& domain) {
   const Boundary& boundary = domain.boundary();
   hash.add({boundary.periods.x, boundary.periods.y});
   for (const Loop& loop : boundary.loops)
-    for (const Piece& piece : loop.pieces) {
-      hash.add(piece.start);
-      hash.add(piece.end);
-      hash.add(piece.part);
-      hash.add(piece.corner ? 1 : 0);
-      if (!piece.circular)
-        continue;
-      hash.add(piece.center);
-      hash.add(piece.radius);
-      hash.add(piece.start_angle);
-      hash.add(piece.sweep);
-    }
+    for (const Piece& piece : loop.pieces)
+      add(piece, hash);
+  for (const geometry::InnerArc& arc : domain.curves().arcs)
+    for (const Piece& piece : arc.pieces)
+      add(piece, hash);
   for (const geometry::FixedPoint& point : domain.fixed_points())
     hash.add(point.position);
   return hash.value();

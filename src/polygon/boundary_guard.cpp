@@ -108,11 +108,18 @@ BoundaryGuard::BoundaryGuard(const BoundarySites& sites, const geometry::Lattice
   TRIME_ASSERT(!is_empty() || periods_.any());
   if (is_empty())
     return;
+  std::vector<Segment> inner;
+  for (const InnerChord& chord : sites.inner.chords)
+    inner.push_back(chord.ends);
+  if (!inner.empty())
+    inner_ = geometry::SegmentGrid(std::move(inner));
   const geometry::Box window = choose_cells();
   if (periods_.any()) {
     add_images(window);
     close_chords(window, lattice);
   }
+  first_inner_ = static_cast<LocalIndex>(images_.size());
+  images_.insert(images_.end(), inner_.segments().begin(), inner_.segments().end());
   cells_.list_discs(chords_.segments(), images_);
   classify_cells(lattice);
 }
@@ -122,13 +129,17 @@ BoundaryGuard::BoundaryGuard(const BoundarySites& sites, const geometry::Lattice
 geometry::Box BoundaryGuard::choose_cells() {
   geometry::Box box;
   double area_of_discs = 0;
-  for (const Segment& chord : chords_.segments()) {
-    const Vec2 middle = 0.5 * (chord.a + chord.b);
-    const double reach = reach_of(chord);
-    box.include(middle - Vec2{reach, reach});
-    box.include(middle + Vec2{reach, reach});
-    area_of_discs += 4 * reach * reach;
-  }
+  const auto include = [&](std::span<const Segment> chords) {
+    for (const Segment& chord : chords) {
+      const Vec2 middle = 0.5 * (chord.a + chord.b);
+      const double reach = reach_of(chord);
+      box.include(middle - Vec2{reach, reach});
+      box.include(middle + Vec2{reach, reach});
+      area_of_discs += 4 * reach * reach;
+    }
+  };
+  include(chords_.segments());
+  include(inner_.segments());
   if (periods_.x > 0) {
     box.min.x = periods_.min.x;
     box.max.x = periods_.min.x + periods_.x;
@@ -137,7 +148,8 @@ geometry::Box BoundaryGuard::choose_cells() {
     box.min.y = periods_.min.y;
     box.max.y = periods_.min.y + periods_.y;
   }
-  const double n = static_cast<double>(chords_.segments().size()), area = box.width() * box.height();
+  const double n = static_cast<double>(chords_.segments().size() + inner_.segments().size()),
+               area = box.width() * box.height();
   const double cells = std::clamp(cells_per_chord * n, least_guard_cells, most_guard_cells);
   const double affordable = std::clamp(entries_per_chord * n, entries, most_entries);
   double side = std::sqrt(std::fmax(area / cells, area_of_discs / affordable));
@@ -269,7 +281,11 @@ double BoundaryGuard::distance(Vec2 p, double reach) const {
   if (clear_way(p) >= reach)
     return reach;
   const auto found = nearest(p, reach);
-  return found ? std::sqrt(found->squared_distance) : reach;
+  const double way = found ? std::sqrt(found->squared_distance) : reach;
+  if (inner_.segments().empty())
+    return way;
+  const auto inner = inner_.nearest(p, way);
+  return inner ? std::fmin(way, std::sqrt(inner->squared_distance)) : way;
 }
 
 GuardCells BoundaryGuard::cells() const {
@@ -299,6 +315,8 @@ std::optional<Vec2> BoundaryGuard::correct(Vec2 image, double h, const geometry:
     const auto near = nearest(p, 2 * h);
     s = near ? near->chord : nearest(p, std::numeric_limits<double>::infinity())->chord;
   }
+  if (p_inside && has_both_sides(deepest) && geometry::cross(s.b - s.a, p - s.a) < 0)
+    std::swap(s.a, s.b);
   const Vec2 along = s.b - s.a, middle = 0.5 * (s.a + s.b), toward = p - middle;
   const double chord_length = geometry::length(along), distance = geometry::length(toward);
   if (p_inside && distance > 0 && geometry::cross(along, toward) >= 0.5 * chord_length * distance) {

@@ -28,6 +28,9 @@ namespace trime::polygon {
 /// chords and images that meet the container are completed to closed polygons outside of it. Then the even-odd rule
 /// separates inside from outside; the inner side of one chord shows which is which. Without sites, every point is
 /// inside.
+///
+/// The chords of curves inside the shape have diametral circles, too. A site in such a circle is pushed to the side on
+/// which it lies.
 class BoundaryGuard {
 public:
   BoundaryGuard(const BoundarySites& sites, const geometry::Lattice& lattice);
@@ -82,6 +85,7 @@ private:
   const geometry::Segment& disc(LocalIndex k) const {
     return k < chord_count() ? chords_.segments()[k] : images_[static_cast<std::size_t>(k - chord_count())];
   }
+  bool has_both_sides(LocalIndex k) const { return k >= chord_count() + first_inner_; }
   LocalIndex chord_count() const { return static_cast<LocalIndex>(chords_.segments().size()); }
   bool is_empty() const { return chords_.segments().empty(); }
   void classify_cells(const geometry::Lattice& lattice);
@@ -96,7 +100,10 @@ private:
 
   geometry::Periods periods_;
   geometry::SegmentGrid chords_;          // each as the periodic image whose middle lies in the container
-  std::vector<geometry::Segment> images_; // images of chords whose diametral circles reach into the container
+  geometry::SegmentGrid inner_;           // chords of curves inside the shape
+  std::vector<geometry::Segment> images_; // images of chords whose diametral circles reach into the container; then the
+                                          // chords of curves inside the shape
+  LocalIndex first_inner_ = 0;            // index in images_ of the first chord of a curve
   geometry::SegmentGrid
       closed_; // chords and images, completed to closed polygons outside of the container; for periodic containers only
   bool inverted_ = false; // whether the inside of the shape is the outside of closed_

@@ -4,6 +4,7 @@
 // boundary was simplified before sites were placed on it.
 #pragma once
 
+#include "polygon/inner_chords.hpp"
 #include "trime/core/types.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/geometry/lattice.hpp"
@@ -61,6 +62,7 @@ struct BoundarySites {
   DroppedLoops dropped;    ///< loops that are dropped because they are smaller than the triangles
   LocalIndex left_out = 0; ///< number of corners of the shape on remaining loops that are not boundary sites
   double deviation = 0;    ///< largest distance of such a corner from its chord, divided by the local size
+  InnerChords inner;       ///< chords of curves inside the shape
 
   /// Returns the chord from site i to the next site, or to that periodic image of the next site to which the boundary
   /// leads.

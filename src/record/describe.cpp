@@ -257,6 +257,16 @@ io::MetadataGroup tags_group(const Origin& origin, const std::vector<polygon::Lo
            {"region_name", std::vector<std::string>{origin.region}}}};
 }
 
+io::Metadata with_curves(io::Metadata metadata, const Origin& origin) {
+  if (origin.curve_names.empty())
+    return metadata;
+  std::vector<std::int32_t> ids(origin.curve_names.size()), labels(ids);
+  std::iota(ids.begin(), ids.end(), 0);
+  std::iota(labels.begin(), labels.end(), static_cast<std::int32_t>(origin.part_names.size()) + 1);
+  metadata.groups.push_back({"curves", {}, {{"curve_id", ids}, {"curve_name", origin.curve_names}, {"label", labels}}});
+  return metadata;
+}
+
 SizeRange size_range(const mesh::DistributedMesh& mesh, const comm::Communicator& comm) {
   constexpr std::size_t part = 1 << 14;
   struct Extremes {
@@ -284,7 +294,9 @@ Origin origin_of(const shape::RegionShape& shape) {
   return {boundary.part_names,
           shape.domain().part_markers(),
           shape.region().text(),
-          {boundary.periods.x, boundary.periods.y}};
+          {boundary.periods.x, boundary.periods.y},
+          {},
+          shape.domain().curves().names};
 }
 
 io::Metadata describe(const meshing::MeshResult& result, const Origin& origin, const std::string& sizing,
@@ -297,12 +309,13 @@ io::Metadata describe(const meshing::MeshResult& result, const Origin& origin, c
                         {"smallest_size", sizes.smallest},
                         {"largest_size", sizes.largest},
                         {"complete", std::int64_t{is_complete(result)}}};
-  return {joined({format_attributes(), made, place_attributes(origin),
-                  mesh_attributes(result.mesh, result.triangulations + 1), result_attributes(result)}),
-          {},
-          {history_group(result.history), quality_group(result.quality), checks_group(result.checks),
-           bad_triangles_group(result.quality), tags_group(origin, result.loops),
-           sharp_corners_group(result.features.sharp_corners), rings_group(origin, result.features.loops)}};
+  return with_curves({joined({format_attributes(), made, place_attributes(origin),
+                              mesh_attributes(result.mesh, result.triangulations + 1), result_attributes(result)}),
+                      {},
+                      {history_group(result.history), quality_group(result.quality), checks_group(result.checks),
+                       bad_triangles_group(result.quality), tags_group(origin, result.loops),
+                       sharp_corners_group(result.features.sharp_corners), rings_group(origin, result.features.loops)}},
+                     origin);
 }
 
 } // namespace trime::record

@@ -116,7 +116,7 @@ void Arrangement::cross_all() {
   for (std::size_t k = 0; k < polygons.size(); ++k) {
     const Box around = inflated(polygon_boxes[k], margin);
     for (const std::size_t b : listed(polygon_tree, polygons, around))
-      if (b > polygons[k])
+      if (b > polygons[k] || (b == polygons[k] && parts_[b].part->is_curve()))
         cross_polygons(polygons[k], b);
     cross_with_circles(polygons[k], around);
   }
@@ -153,6 +153,12 @@ void Arrangement::add_polygon(std::size_t place) {
       lines_.push_back({vertices_.insert(polygon.grid.segments()[ring.first + k].a + shift, part), 0, part});
     for (LocalIndex k = 0; k < ring.count; ++k)
       lines_[first + k].to = lines_[first + (k + 1) % ring.count].from;
+    if (ring.open)
+      lines_.back().to = vertices_.insert(polygon.grid.segments()[ring.first + ring.count - 1].b + shift, part);
+    for (std::size_t k = first; k < lines_.size() && parts_[place].part->is_curve(); ++k) { // it may meet itself
+      vertices_.set_shared(lines_[k].from);
+      vertices_.set_shared(lines_[k].to);
+    }
     if (ring.reversed)
       for (LocalIndex k = 0; k < ring.count; ++k)
         std::swap(lines_[first + k].from, lines_[first + k].to);
@@ -284,7 +290,10 @@ Arrangement::Contact Arrangement::contact_of(LocalIndex s, LocalIndex t) const {
   return contact;
 }
 
+/// Lines of one curve are crossed once.
 void Arrangement::cross_lines(LocalIndex s, LocalIndex t) {
+  if (lines_[s].part == lines_[t].part && t <= s)
+    return;
   const Contact contact = contact_of(s, t);
   const Line a = lines_[s], b = lines_[t];
   const LocalIndex ends[] = {a.from, a.to, b.from, b.to};

@@ -8,6 +8,7 @@
 #include "geometry/box_tree.hpp"
 #include "shape/arrangement.hpp"
 #include "shape/boundary_area.hpp"
+#include "shape/inner_curves.hpp"
 #include "shape/part_images.hpp"
 #include "shape/region_state.hpp"
 #include "shape/vertex_table.hpp"
@@ -93,9 +94,9 @@ private:
 
 class BoundaryMaker {
 public:
-  BoundaryMaker(const Region& region, std::span<const Part> parts, const Frame& frame)
-      : region_(region), frame_(frame), given_(parts), domain_(domain_part(frame)), cut_(cutting_part(frame)),
-        placed_(place(parts)), arrangement_(placed_, frame) {
+  BoundaryMaker(const Region& region, std::span<const Part> parts, const Frame& frame, const CurveParts& curves)
+      : region_(region), frame_(frame), given_(parts), curves_(curves), domain_(domain_part(frame)),
+        cut_(cutting_part(frame)), placed_(place(parts)), arrangement_(placed_, frame) {
     for (const Part& part : parts)
       boundary_.part_names.push_back(part.name());
     if (region.parts().back() == static_cast<int>(parts.size()))
@@ -109,6 +110,7 @@ public:
     if (!kept_.empty())
       check_container();
     link();
+    note_curves();
     if (owned != nullptr && !frame_.periods().any() && !have_markers(given_)) {
       given_ = {};
       owned->clear(); // placed_ still knows their numbers
@@ -122,7 +124,13 @@ public:
                       region_.text()));
     check_area(boundary_, region_.text(), frame_);
     std::vector<std::int32_t> markers = name_markers(boundary_, given_, frame_);
-    return {frame_, std::move(boundary_), std::move(markers)};
+    geometry::InnerCurves curves;
+    for (const Part& curve : curves_.curves)
+      curves.names.push_back(curve.name());
+    curves.arcs = join_pieces(std::move(on_curves_), on_boundary_, boundary_);
+    geometry::Domain domain(frame_, std::move(boundary_), std::move(markers));
+    domain.set_curves(std::move(curves));
+    return domain;
   }
 
 private:
@@ -149,10 +157,19 @@ private:
       for (const Vec2 shift : image_shifts(part, frame_))
         placed.push_back({&part, index, shift});
     }
+    if (frame_.periods().any() && !curves_.curves.empty())
+      throw GeometryError(fmt::format("curve '{}': a periodic container cannot have curves inside yet; expected a "
+                                      "container without periods",
+                                      curves_.curves[0].name()));
     if (frame_.periods().any())
       placed.push_back({&cut_, cut_index, {}});
+    for (std::size_t k = 0; k < curves_.curves.size(); ++k)
+      placed.push_back({&curves_.curves[k], first_curve() + static_cast<int>(k), {}});
     return placed;
   }
+  /// The index of the first curve; parts and the domain have lower ones.
+  int first_curve() const { return static_cast<int>(given_.size()) + 1; }
+  bool is_curve(int place) const { return placed_[static_cast<std::size_t>(place)].index >= first_curve(); }
 
   int index_of(const Arrangement::Piece& piece) const { return placed_[piece.part].index; }
   bool holds(RegionState& state, const std::vector<int>& places) const;
@@ -163,6 +180,9 @@ private:
   void classify();
   Side side_of(RegionState& state, const std::vector<int>& places) const;
   void keep_if_border(LocalIndex k, const Side& left, const Side& right);
+  void keep_if_curve(LocalIndex k, const Side& left, const Side& right);
+  void note_curves();
+  [[noreturn]] void report_outside(int curve, const Arrangement::Piece& piece) const;
   void check_container() const;
   void link();
   [[noreturn]] void report_node(LocalIndex node) const;
@@ -174,12 +194,15 @@ private:
   const Region& region_;
   const Frame& frame_;
   std::span<const Part> given_;
+  const CurveParts& curves_;
   const Part domain_, cut_;
   const std::vector<PlacedPart> placed_;
   const Arrangement arrangement_;
   std::vector<Kept> kept_;
   std::optional<Quotient> nodes_;
-  std::vector<LocalIndex> next_; // the kept piece that leaves each node, or -1
+  std::vector<LocalIndex> next_;                // the kept piece that leaves each node, or -1
+  std::vector<CurvePiece> on_curves_;           // those inside the shape
+  std::vector<char> on_boundary_, meets_curve_; // by vertex
   Boundary boundary_;
 };
 
@@ -197,11 +220,11 @@ Vec2 BoundaryMaker::middle(const Arrangement::Piece& piece) const {
 /// @param state without parts; it is so after, too
 bool BoundaryMaker::holds(RegionState& state, const std::vector<int>& places) const {
   for (const int place : places)
-    if (const int index = placed_[static_cast<std::size_t>(place)].index; index != cut_index)
+    if (const int index = placed_[static_cast<std::size_t>(place)].index; index != cut_index && !is_curve(place))
       state.enter(index);
   const bool held = state.contains();
   for (const int place : places)
-    if (const int index = placed_[static_cast<std::size_t>(place)].index; index != cut_index)
+    if (const int index = placed_[static_cast<std::size_t>(place)].index; index != cut_index && !is_curve(place))
       state.leave(index);
   return held;
 }
@@ -235,11 +258,63 @@ void BoundaryMaker::classify() {
     beside.divide();
     const Vec2 p = middle(piece);
     tree.for_each_meeting({p, p}, [&](std::size_t place) {
-      if (!beside.has(place) && walks[place].inside(p - placed_[place].shift))
+      if (!beside.has(place) && !is_curve(static_cast<int>(place)) && walks[place].inside(p - placed_[place].shift))
         beside.add_on_both(static_cast<int>(place));
     });
-    keep_if_border(static_cast<LocalIndex>(k), side_of(state, beside.left()), side_of(state, beside.right()));
+    const Side left = side_of(state, beside.left()), right = side_of(state, beside.right());
+    keep_if_border(static_cast<LocalIndex>(k), left, right);
+    if (!curves_.curves.empty())
+      keep_if_curve(static_cast<LocalIndex>(k), left, right);
   }
+}
+
+/// Keeps pieces of curves with the region on both sides. Those on the border belong to the boundary.
+void BoundaryMaker::keep_if_curve(LocalIndex k, const Side& left, const Side& right) {
+  const Arrangement::Piece& piece = arrangement_.pieces()[k];
+  int place = piece.part;
+  bool along = true;
+  for (LocalIndex t = piece.first_twin; !is_curve(place) && t < piece.first_twin + piece.twin_count; ++t) {
+    place = arrangement_.twins()[t].part;
+    along = arrangement_.twins()[t].along;
+  }
+  if (!is_curve(place) || left.is_region != right.is_region)
+    return;
+  const int curve = placed_[static_cast<std::size_t>(place)].index - first_curve();
+  if (!left.is_region) {
+    if (curves_.clip.empty() || curves_.clip[static_cast<std::size_t>(curve)] == 0)
+      report_outside(curve, piece);
+    return;
+  }
+  CurvePiece& kept = on_curves_.emplace_back();
+  kept.from = along ? piece.from : piece.to;
+  kept.to = along ? piece.to : piece.from;
+  kept.piece.start = arrangement_.vertices().point(kept.from);
+  kept.piece.end = arrangement_.vertices().point(kept.to);
+  kept.piece.part = curve;
+}
+
+void BoundaryMaker::report_outside(int curve, const Arrangement::Piece& piece) const {
+  const Part& part = curves_.curves[static_cast<std::size_t>(curve)];
+  const Vec2 p = middle(piece);
+  const auto nearest = part.as_polygon()->grid.nearest(p);
+  const std::string& label = part.as_polygon()->labels[static_cast<std::size_t>(nearest.segment)];
+  throw GeometryError(
+      fmt::format("curve '{}'{} lies outside of the shape at {}: expected curves inside of the geometry "
+                  "'{}'; move it, or set clip = true to leave out what lies outside",
+                  part.name(), label.empty() ? "" : fmt::format(" ({})", label), Place(p, 12), region_.text()));
+}
+
+/// Notes which vertices lie on the boundary, and where curves meet it.
+void BoundaryMaker::note_curves() {
+  if (curves_.curves.empty())
+    return;
+  on_boundary_.assign(static_cast<std::size_t>(arrangement_.vertices().size()), 0);
+  meets_curve_ = on_boundary_;
+  for (const Kept& kept : kept_)
+    on_boundary_[static_cast<std::size_t>(kept.from)] = 1;
+  for (const CurvePiece& piece : on_curves_)
+    for (const LocalIndex end : {piece.from, piece.to})
+      meets_curve_[static_cast<std::size_t>(end)] = 1;
 }
 
 BoundaryMaker::Side BoundaryMaker::side_of(RegionState& state, const std::vector<int>& places) const {
@@ -364,6 +439,7 @@ Piece BoundaryMaker::finished(const Kept& kept, Vec2 offset) const {
     piece.end = kept.reversed ? from : to;
   }
   piece.part = index_of(source);
+  piece.corner = !meets_curve_.empty() && meets_curve_[static_cast<std::size_t>(kept.from)] != 0;
   return piece;
 }
 
@@ -415,12 +491,14 @@ void BoundaryMaker::finish_periodic_area() {
 
 } // namespace
 
-geometry::Domain make_boundary(const Region& region, std::span<const Part> parts, const Frame& frame) {
-  return BoundaryMaker(region, parts, frame).make(nullptr);
+geometry::Domain make_boundary(const Region& region, std::span<const Part> parts, const Frame& frame,
+                               const CurveParts& curves) {
+  return BoundaryMaker(region, parts, frame, curves).make(nullptr);
 }
 
-geometry::Domain make_boundary(const Region& region, std::vector<Part>&& parts, const Frame& frame) {
-  return BoundaryMaker(region, parts, frame).make(&parts);
+geometry::Domain make_boundary(const Region& region, std::vector<Part>&& parts, const Frame& frame,
+                               const CurveParts& curves) {
+  return BoundaryMaker(region, parts, frame, curves).make(&parts);
 }
 
 } // namespace trime::shape

@@ -117,6 +117,37 @@ Part Part::contour(const std::string& name, const contours::Contour& contour,
   return part;
 }
 
+Part Part::curve(const std::string& name, std::vector<CurveLine> lines, const Frame& frame) {
+  std::vector<Segment> segments;
+  std::vector<Polygon::Ring> rings;
+  std::vector<std::string> labels;
+  for (CurveLine& line : lines) {
+    line.labels.resize(line.points.size());
+    const std::size_t first = segments.size();
+    const auto add = [&](Vec2 from, Vec2 to, std::size_t k) {
+      if (from == to)
+        return;
+      segments.push_back({from, to});
+      labels.push_back(line.labels[k]);
+    };
+    for (Vec2& p : line.points)
+      p = place(name, p, frame);
+    for (std::size_t k = 0; k + 1 < line.points.size(); ++k)
+      add(line.points[k], line.points[k + 1], k);
+    if (line.closed && line.points.size() > 2)
+      add(line.points.back(), line.points.front(), line.points.size() - 1);
+    if (segments.size() == first)
+      throw GeometryError(fmt::format("curve '{}'{}: expected lines with two different points, found {} at one place",
+                                      name, line.labels.empty() ? "" : fmt::format(" ({})", line.labels[0]),
+                                      line.points.size()));
+    const bool closes = segments.back().b == segments[first].a;
+    rings.push_back({static_cast<LocalIndex>(first), static_cast<LocalIndex>(segments.size() - first), false, !closes});
+  }
+  Part part(name, Polygon{geometry::SegmentGrid(std::move(segments)), std::move(rings), {}, {}, {}, std::move(labels)});
+  part.is_curve_ = true;
+  return part;
+}
+
 Part Part::polygon(const std::string& name, Polygon polygon, std::vector<std::string> warnings) {
   Part part(name, std::move(polygon));
   part.warnings_ = std::move(warnings);
@@ -153,6 +184,8 @@ std::vector<Loop> Part::boundary() const {
 }
 
 bool Part::inside(Vec2 p) const {
+  if (is_curve_)
+    return false;
   if (const Polygon* polygon = as_polygon())
     return polygon->grid.inside(p);
   // Products of lattice differences: the float decides unless the two sides are equal, then their errors do.

@@ -55,8 +55,11 @@ struct Stage {
   const sizing::SizeField& asked_size() const {
     return limited_size ? static_cast<const sizing::SizeField&>(*limited_size) : *scaled_size;
   }
-  /// Returns the number of sites that are placed before all others: boundary sites, and fixed points inside.
-  GlobalId placed_first() const { return static_cast<GlobalId>(polygon.sites.size()) + fixed_inside; }
+  /// Returns the number of sites that are placed before all others: boundary sites, sites on
+  /// curves inside, and fixed points inside.
+  GlobalId placed_first() const {
+    return static_cast<GlobalId>(polygon.sites.size() + polygon.inner.sites.size()) + fixed_inside;
+  }
 
   /// @param fixed points that must be vertices of the mesh, in lexicographic order
   StageView view(const geometry::Lattice& lattice, std::span<const geometry::Vec2> fixed = {}) const {

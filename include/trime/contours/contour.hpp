@@ -22,7 +22,8 @@ struct ContourRing {
   std::vector<int> markers{};
   /// The vertices as they are in the file, if `points` are their projection; otherwise empty.
   std::vector<geometry::Vec2> in_file{};
-  int polygon = 0; ///< number of the polygon of a map to which the ring belongs, from 1; 0 for lines and other files
+  int polygon = 0;   ///< number of the polygon of a map to which the ring belongs, from 1; 0 for lines and other files
+  bool open = false; ///< a line of a curve: the last vertex is not joined to the first one
 };
 
 /// A feature of a map, for messages.
@@ -85,6 +86,17 @@ Contour read_contour(const std::string& path, const std::string& hint = "", cons
 /// Reads the rings of a text. The ending of `source` decides the format, as in read_contour.
 Contour parse_contour(std::string_view text, const std::string& source, const std::string& attribute = "",
                       Faults faults = Faults::refuse);
+
+/// @brief Reads the lines of curves inside a shape from a `.xy`, `.geojson`, `.json` or `.shp` file. They are in
+/// Contour::rings, see ContourRing::open: a line that ends where it starts is a ring, as is the border of a polygon.
+/// @param attribute the attribute of map features that divides the lines into several curves, see parse_geojson: the
+/// markers are those of the features
+/// @throws as read_contour, but open lines are not faults
+/// @note Serial.
+Contour read_curves(const std::string& path, const std::string& hint = "", const std::string& attribute = "");
+
+/// Reads the lines of curves from a text; the ending of `source` decides the format: `.geojson`, `.json` or `.xy`.
+Contour parse_curves(std::string_view text, const std::string& source, const std::string& attribute = "");
 
 /// @brief Reads rings of `.xy` text, which has one `x y` per line. A blank line, or a line that starts with `>`, ends a
 /// ring; `#` and `;` start comments. Numbers may be separated by a comma. If all lines have the form `10,15;20,55` or

@@ -22,6 +22,7 @@ struct Piece {
   int part = 0;           ///< the part of the shape from which the piece comes, as an index into Boundary::part_names
   bool circular = false;
   bool corner = false; ///< the mesh keeps the start as a corner, even if the curve hardly turns there
+  bool sharp = false;  ///< another curve meets this one at the start at less than 60 degrees
 
   /// Returns the arc length of the piece.
   double length() const;
@@ -47,6 +48,9 @@ struct Loop {
       true;    ///< true: counter-clockwise around a component; false: clockwise around a hole; true if the loop winds
   int tag = 1; ///< tag of the loop's edges in the mesh file, from 1
   Vec2 winding{}; ///< multiple of the periods; zero unless the loop goes around the periodic container
+  /// Above 0 for an open curve as a loop: the pieces before this number lead along the curve, the others back along the
+  /// same way.
+  std::size_t turning = 0;
 
   double length() const;
   /// Returns the turn at the start of piece i, in degrees from 0 to 180.
@@ -77,6 +81,23 @@ struct Boundary {
   Box bounding_box() const;
 };
 
+/// @brief A part of the curves inside a shape, from node to node. A node is an end of a curve, a place where curves
+/// meet or cross each other or the boundary, or a place where another curve begins. Arcs meet only in nodes.
+struct InnerArc {
+  std::vector<Piece> pieces; ///< each begins where the piece before it ends; Piece::part is an index into
+                             ///< InnerCurves::names
+  bool closed = false;       ///< a ring without a node: it ends where it begins
+  bool sharp_start = false, sharp_end = false; ///< another curve meets the arc there at less than 60 degrees
+};
+
+/// @brief The curves inside a shape that edges of the mesh follow, cut at all their crossings. The mesh keeps all nodes
+/// bit for bit.
+struct InnerCurves {
+  std::vector<InnerArc> arcs;     ///< in the order of the names, then of the files
+  std::vector<std::string> names; ///< of the curves
+  bool empty() const { return arcs.empty(); }
+};
+
 /// A point that the user wants as a vertex of the mesh.
 struct FixedPoint {
   Vec2 position;
@@ -89,8 +110,7 @@ struct FixedPoint {
 /// The names of the parts are Boundary::part_names. Pieces whose segments have a marker other than 0 form a separate
 /// part, listed after all parts without markers: "NAME.MARKER", or "NAME.TEXT" if the file has a name for the marker.
 /// Where two such parts meet on one curve there is a corner.
-/// @note Curves inside the shape and named regions of triangles will become members of this class once they are
-/// supported.
+/// @note Named regions of triangles will become members of this class once they are supported.
 class Domain {
 public:
   /// @brief Checks that the boundary belongs to the frame, and stores both. Cost: O(pieces).
@@ -110,11 +130,16 @@ public:
   const std::vector<FixedPoint>& fixed_points() const { return fixed_points_; }
   void set_fixed_points(std::vector<FixedPoint> points) { fixed_points_ = std::move(points); }
 
+  /// The curves inside the shape. Where one of them meets the boundary, a piece of the boundary begins with a corner.
+  const InnerCurves& curves() const { return curves_; }
+  void set_curves(InnerCurves curves) { curves_ = std::move(curves); }
+
 private:
   Frame frame_;
   Boundary boundary_;
   std::vector<std::int32_t> part_markers_;
   std::vector<FixedPoint> fixed_points_;
+  InnerCurves curves_;
 };
 
 } // namespace trime::geometry

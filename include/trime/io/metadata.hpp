@@ -66,6 +66,9 @@ const T& attribute_of(const Metadata& metadata, const std::string& name);
 /// @throws FileError if there is no column with this name and type
 template <class T>
 const std::vector<T>& column_of(const Metadata& metadata, const std::string& group, const std::string& name);
+
+/// Returns the names of the curves inside the shape; none if the file has no group with them.
+std::vector<std::string> curve_names(const Metadata& metadata);
 /// Returns the group with this name, or null.
 const MetadataGroup* find_group(const Metadata& metadata, const std::string& name);
 

@@ -24,13 +24,13 @@ struct Slab {
 /// Triangles store local indices of their vertices, which take half the memory of global ids: the points of the slab
 /// are numbered from 0, followed by points of other ranks. Memory: 25 bytes per point and 20 per triangle.
 struct DistributedMesh {
-  Slab point_slab, triangle_slab, facet_slab;
+  Slab point_slab, triangle_slab, facet_slab, curve_slab;
 
   // Arrays with one entry for each point of the slab.
   UnsetVector<geometry::Vec2> points;
   UnsetVector<std::int32_t> boundary; ///< tag of the boundary loop on which the point lies; 0 inside
   UnsetVector<float> size;            ///< target edge length h at the point
-  UnsetVector<std::uint8_t> fixed;    ///< 1 for corners and the user's fixed points
+  UnsetVector<std::uint8_t> fixed;    ///< 1 for corners, nodes of curves and the user's fixed points
 
   // Arrays with one entry for each triangle. Vertices are counter-clockwise, the one with the lowest global id first.
   // See global_id and triangle_ids.
@@ -48,6 +48,11 @@ struct DistributedMesh {
       facet_parts; ///< part of the shape on whose boundary the facet lies, as an index into Boundary::part_names
   std::vector<float> facet_sizes; ///< target edge length at the middle of the facet as the user asked for it; `size` of
                                   ///< the points may be lower
+
+  // Arrays with one entry for each edge on a curve inside the shape, in the direction of the curve. These edges have a
+  // triangle on each side, and are not facets.
+  std::vector<std::array<GlobalId, 2>> curve_edges;
+  std::vector<std::int32_t> curve_numbers; ///< curve of the edge, as an index into geometry::InnerCurves::names
 
   /// Hash of points and triangles over all ranks, which does not depend on how they are distributed.
   std::uint64_t hash = 0;

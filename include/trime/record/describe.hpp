@@ -25,6 +25,7 @@ struct Origin {
   std::string region{};                     ///< name of region 1, which is the expression that joins the parts
   geometry::Vec2 period{0, 0};              ///< sides of a periodic container; 0 in a direction that is not periodic
   std::string crs{};                        ///< reference system of the coordinates; empty: unknown
+  std::vector<std::string> curve_names{};   ///< names of the curves, indexed by DistributedMesh::curve_numbers
   std::vector<std::int32_t> ring_lines{};   ///< line in a contour file of each loop of the shape; missing entries are 0
 };
 

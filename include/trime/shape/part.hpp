@@ -29,12 +29,21 @@ struct Polygon {
   struct Ring {
     LocalIndex first, count;
     bool reversed;
+    bool open = false; ///< a line of a curve: the last segment does not end where the first one starts
   };
   geometry::SegmentGrid grid; ///< the segments ring by ring; each segment starts where the one before it ends
   std::vector<Ring> rings;
   std::vector<int> markers{};              ///< marker of each segment; 0 for no marker; empty if all are 0
   std::vector<std::string> marker_names{}; ///< names of the markers, as in Contour::marker_names
   std::vector<std::string> notes{};        ///< sentences for the log about what was dissolved
+  std::vector<std::string> labels{};       ///< of curves: file and line of each segment, for messages
+};
+
+/// A line of a curve: its vertices, and whether it is a ring, which returns from the last vertex to the first one.
+struct CurveLine {
+  std::vector<geometry::Vec2> points;
+  bool closed = false;
+  std::vector<std::string> labels{}; ///< file and line of each vertex, for messages; empty: none
 };
 
 /// Returns the four points of a circle at the angles 0, pi/2, pi, 3 pi/2. They are exact.
@@ -76,6 +85,10 @@ public:
   static Part contour(const std::string& name, const contours::Contour& contour,
                       const contours::Normalization& normalization, const geometry::Frame& frame,
                       const TouchOptions& touches = {});
+  /// @brief Makes a curve, which encloses nothing: lines that the edges of a mesh follow. Lines may cross and touch
+  /// each other. Equal successive vertices are joined.
+  /// @throws GeometryError if a line has no two different points, or leaves frame.reach()
+  static Part curve(const std::string& name, std::vector<CurveLine> lines, const geometry::Frame& frame);
   /// @brief Makes a part from a polygon whose vertices are already on the coordinate lattice.
   /// @param warnings for the user, one sentence each
   static Part polygon(const std::string& name, Polygon polygon, std::vector<std::string> warnings = {});
@@ -88,6 +101,7 @@ public:
   const Circle* as_circle() const { return std::get_if<Circle>(&form_); }
   const Polygon* as_polygon() const { return std::get_if<Polygon>(&form_); }
   bool is_contour() const { return is_contour_; }
+  bool is_curve() const { return is_curve_; }
 
   /// @brief Returns the closed boundary with the interior on the left. A circle has four arcs; the first one starts at
   /// the rightmost point. Loops are in the order of the rings, with tags from 1 and `part` 0.
@@ -104,7 +118,7 @@ private:
   std::string name_;
   std::variant<Polygon, Circle> form_;
   std::vector<std::string> warnings_;
-  bool is_contour_ = false;
+  bool is_contour_ = false, is_curve_ = false;
 };
 
 } // namespace trime::shape

@@ -83,6 +83,12 @@ private:
   std::vector<int> parts_;
 };
 
+/// The curves that edges of the mesh follow inside a shape.
+struct CurveParts {
+  std::vector<Part> curves{}; ///< made by Part::curve
+  std::vector<char> clip{}; ///< by curve: whether what lies outside of the shape is left out; otherwise it is an error
+};
+
 /// Parts joined by an expression. The shape does not change after construction; all queries are thread-safe.
 class RegionShape final : public tracing::Shape {
 public:
@@ -91,8 +97,10 @@ public:
   /// @param region the expression, see Region::parse
   /// @throws ConfigError for a wrong expression or wrong names. GeometryError if the shape is empty, leaves the
   /// container or has a boundary that touches itself. Also if a part reaches over a periodic side by more than one
-  /// period, or was made in a frame with another lattice or place than `frame`
-  RegionShape(std::vector<Part> parts, std::string_view region, const geometry::Frame& frame);
+  /// period, or was made in a frame with another lattice or place than `frame`; or if a curve leaves the shape, or the
+  /// container of a shape with curves is periodic
+  RegionShape(std::vector<Part> parts, std::string_view region, const geometry::Frame& frame,
+              const CurveParts& curves = {});
 
   /// Returns the domain, which the mesher takes.
   const geometry::Domain& domain() const { return domain_; }
@@ -125,7 +133,8 @@ private:
 /// @brief Makes only the domain, for callers that need nothing else of the shape. Frees the parts and all structures
 /// that were needed to find the boundary. The domain is bit-identical to that of a RegionShape.
 /// @throws ConfigError, GeometryError under the conditions of the constructor of RegionShape
-geometry::Domain domain_of(std::vector<Part> parts, std::string_view region, const geometry::Frame& frame);
+geometry::Domain domain_of(std::vector<Part> parts, std::string_view region, const geometry::Frame& frame,
+                           const CurveParts& curves = {});
 
 /// Traces your own shape: returns a RegionShape that consists of it alone. See traced_part for cost and errors.
 RegionShape traced(const tracing::Shape& shape, const geometry::Frame& frame, const std::string& name = "shape");

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The chords of the curves inside a shape: edges that the mesh must have, with the shape on both sides.
+#pragma once
+
+#include "trime/core/types.hpp"
+#include "trime/geometry/vec2.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace trime::polygon {
+
+/// A straight edge between two neighbouring sites on a curve inside the shape, in the direction of the curve.
+struct InnerChord {
+  geometry::Segment ends;
+  std::int32_t curve = 0; ///< number of the curve, an index into geometry::InnerCurves::names
+};
+
+/// @brief The chords of all curves inside a shape, and the sites on the curves. The sites never move. An end of a chord
+/// is one of `sites`, or a corner on the boundary. Invariant: the open diametral circle of a chord contains no boundary
+/// site and no other end of a chord.
+struct InnerChords {
+  std::vector<InnerChord> chords;    ///< arc by arc, in the direction of each arc
+  std::vector<geometry::Vec2> sites; ///< sites inside the shape, each once, in lexicographic order
+  std::vector<std::uint8_t> corner;  ///< by site: whether it is a node or a corner, which must be a vertex of the mesh
+  std::vector<LocalIndex> by_end;    ///< each chord k as 2 k (first end) and 2 k + 1 (second end), by place of that end
+
+  bool empty() const { return chords.empty(); }
+  geometry::Vec2 end(LocalIndex half) const {
+    const geometry::Segment& ends = chords[static_cast<std::size_t>(half / 2)].ends;
+    return half % 2 == 0 ? ends.a : ends.b;
+  }
+  geometry::Vec2 other_end(LocalIndex half) const { return end(half ^ 1); }
+  /// Sets by_end.
+  void sort_ends();
+  /// Returns the entries of by_end at p. Cost: O(log chords).
+  std::span<const LocalIndex> at(geometry::Vec2 p) const {
+    const auto low = std::lower_bound(by_end.begin(), by_end.end(), p, [this](LocalIndex half, geometry::Vec2 q) {
+      return geometry::lexicographically_less(end(half), q);
+    });
+    auto high = low;
+    while (high != by_end.end() && end(*high) == p)
+      ++high;
+    return {low, high};
+  }
+  /// Returns whether a site inside is a corner or a node. @pre p is one of `sites`
+  bool is_corner(geometry::Vec2 p) const {
+    const auto found = std::lower_bound(sites.begin(), sites.end(), p, geometry::lexicographically_less);
+    return found != sites.end() && *found == p && corner[static_cast<std::size_t>(found - sites.begin())] != 0;
+  }
+};
+
+} // namespace trime::polygon

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shape/inner_curves.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace trime::shape {
+namespace {
+
+using geometry::InnerArc;
+using geometry::Piece;
+using geometry::Vec2;
+
+constexpr double sharp_cosine = 0.5; // of 60 degrees
+
+Piece reversed(Piece piece) {
+  std::swap(piece.start, piece.end);
+  piece.start_angle += piece.sweep;
+  piece.sweep = -piece.sweep;
+  return piece;
+}
+
+/// Follows pieces from vertex to vertex.
+class PieceWalk {
+public:
+  PieceWalk(std::vector<CurvePiece> pieces, const std::vector<char>& on_boundary)
+      : pieces_(std::move(pieces)), on_boundary_(on_boundary), used_(pieces_.size(), 0) {
+    for (std::size_t k = 0; k < pieces_.size(); ++k) {
+      ends_.emplace_back(pieces_[k].from, k);
+      ends_.emplace_back(pieces_[k].to, k);
+    }
+    std::sort(ends_.begin(), ends_.end());
+  }
+
+  std::vector<InnerArc> arcs() {
+    std::vector<InnerArc> found;
+    for (std::size_t k = 0; k < pieces_.size(); ++k) // in the direction of the curve where that begins at a node
+      if (used_[k] == 0 && is_node(pieces_[k].from))
+        found.push_back(follow(k, pieces_[k].from));
+    for (std::size_t k = 0; k < pieces_.size(); ++k)
+      if (used_[k] == 0 && is_node(pieces_[k].to))
+        found.push_back(follow(k, pieces_[k].to));
+    for (std::size_t k = 0; k < pieces_.size(); ++k)
+      if (used_[k] == 0)
+        found.push_back(ring(k));
+    std::stable_sort(found.begin(), found.end(), [](const InnerArc& a, const InnerArc& b) {
+      return a.pieces.front().part < b.pieces.front().part;
+    });
+    return found;
+  }
+
+private:
+  using End = std::pair<LocalIndex, std::size_t>; // vertex and piece
+
+  std::pair<const End*, const End*> at_vertex(LocalIndex vertex) const {
+    const auto low = std::lower_bound(ends_.begin(), ends_.end(), End{vertex, 0});
+    auto high = low;
+    while (high != ends_.end() && high->first == vertex)
+      ++high;
+    return {ends_.data() + (low - ends_.begin()), ends_.data() + (high - ends_.begin())};
+  }
+
+  bool is_node(LocalIndex vertex) const {
+    const auto [low, high] = at_vertex(vertex);
+    return on_boundary_[static_cast<std::size_t>(vertex)] != 0 || high - low != 2 ||
+           pieces_[low->second].piece.part != pieces_[low[1].second].piece.part;
+  }
+
+  /// From a vertex along a piece to the next node, or once around.
+  InnerArc follow(std::size_t piece, LocalIndex from) {
+    InnerArc arc;
+    for (LocalIndex at = from;;) {
+      const CurvePiece& next = pieces_[piece];
+      used_[piece] = 1;
+      arc.pieces.push_back(next.from == at ? next.piece : reversed(next.piece));
+      at = next.from == at ? next.to : next.from;
+      if (is_node(at))
+        return arc;
+      const auto [low, high] = at_vertex(at);
+      piece = low->second == piece ? low[1].second : low->second;
+      if (used_[piece] != 0)
+        return arc;
+    }
+  }
+
+  InnerArc ring(std::size_t piece) {
+    InnerArc arc = follow(piece, pieces_[piece].from);
+    arc.closed = true;
+    const auto first = std::min_element(arc.pieces.begin(), arc.pieces.end(), [](const Piece& a, const Piece& b) {
+      return geometry::lexicographically_less(a.start, b.start);
+    });
+    std::rotate(arc.pieces.begin(), first, arc.pieces.end());
+    return arc;
+  }
+
+  std::vector<CurvePiece> pieces_;
+  const std::vector<char>& on_boundary_;
+  std::vector<char> used_;
+  std::vector<End> ends_;
+};
+
+/// The directions in which curves leave their nodes.
+class Directions {
+public:
+  void watch(Vec2 node) { arms_[{node.x, node.y}]; }
+  void add(Vec2 node, Vec2 direction) {
+    if (const auto found = arms_.find({node.x, node.y}); found != arms_.end())
+      found->second.push_back(direction);
+  }
+  void add_both(const Piece& piece) {
+    add(piece.start, piece.tangent(0));
+    add(piece.end, -1 * piece.tangent(piece.length()));
+  }
+  /// Do two curves leave the node at less than 60 degrees?
+  bool is_sharp(Vec2 node) const {
+    const std::vector<Vec2>& arms = arms_.at({node.x, node.y});
+    for (std::size_t k = 0; k < arms.size(); ++k)
+      for (std::size_t j = 0; j < k; ++j)
+        if (geometry::dot(arms[k], arms[j]) > sharp_cosine)
+          return true;
+    return false;
+  }
+
+private:
+  std::map<std::pair<double, double>, std::vector<Vec2>> arms_;
+};
+
+} // namespace
+
+std::vector<InnerArc> join_pieces(std::vector<CurvePiece> pieces, const std::vector<char>& on_boundary,
+                                  const geometry::Boundary& boundary) {
+  std::vector<InnerArc> arcs = PieceWalk(std::move(pieces), on_boundary).arcs();
+  Directions directions;
+  for (const InnerArc& arc : arcs)
+    if (!arc.closed)
+      for (const Vec2 node : {arc.pieces.front().start, arc.pieces.back().end})
+        directions.watch(node);
+  for (const InnerArc& arc : arcs)
+    if (!arc.closed) {
+      directions.add(arc.pieces.front().start, arc.pieces.front().tangent(0));
+      directions.add(arc.pieces.back().end, -1 * arc.pieces.back().tangent(arc.pieces.back().length()));
+    }
+  for (const geometry::Loop& loop : boundary.loops)
+    for (const Piece& piece : loop.pieces)
+      directions.add_both(piece);
+  for (InnerArc& arc : arcs)
+    if (!arc.closed) {
+      arc.sharp_start = directions.is_sharp(arc.pieces.front().start);
+      arc.sharp_end = directions.is_sharp(arc.pieces.back().end);
+    }
+  return arcs;
+}
+
+} // namespace trime::shape

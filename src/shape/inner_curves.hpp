@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Joins the pieces of curves inside a shape to arcs from node to node.
+#pragma once
+
+#include "trime/core/types.hpp"
+#include "trime/geometry/boundary.hpp"
+
+#include <vector>
+
+namespace trime::shape {
+
+/// A piece of a curve in the arrangement of all parts and curves.
+struct CurvePiece {
+  LocalIndex from, to;   ///< vertices of the arrangement, in the direction of the curve
+  geometry::Piece piece; ///< Piece::part is the number of the curve
+};
+
+/// @brief Joins pieces to arcs. A vertex is a node if it lies on the boundary, if another number of pieces than two
+/// meets there, or if pieces of two curves do. A ring without a node begins at its vertex that comes first in
+/// lexicographic order. Cost: O(n log n).
+/// @param pieces each of them occurs once @param on_boundary by vertex: whether it lies on the boundary of the shape
+/// @param boundary decides, with the arcs, where an angle between curves is below 60 degrees
+std::vector<geometry::InnerArc> join_pieces(std::vector<CurvePiece> pieces, const std::vector<char>& on_boundary,
+                                            const geometry::Boundary& boundary);
+
+} // namespace trime::shape
