@@ -121,7 +121,7 @@ private:
 } // namespace
 
 SiteKind kind_of_junction(const geometry::Loop& loop, std::size_t piece, double corner_angle) {
-  if (loop.pieces[piece].sharp)
+  if (loop.pieces[piece].wedge > 0)
     return SiteKind::sharp_corner;
   if (loop.turning > 0 && (piece == 0 || piece == loop.turning))
     return SiteKind::corner;

@@ -31,8 +31,8 @@ Loop loop_of(const InnerArc& arc) {
     loop.pieces.push_back(back(arc.pieces[k - 1]));
   Piece &start = loop.pieces.front(), &end = loop.pieces[loop.turning];
   start.corner = end.corner = true;
-  start.sharp = arc.sharp_start;
-  end.sharp = arc.sharp_end;
+  start.wedge = arc.start_wedge;
+  end.wedge = arc.end_wedge;
   return loop;
 }
 
@@ -43,19 +43,19 @@ LaidCurves::LaidCurves(const Boundary& boundary, const geometry::InnerCurves& in
   if (inner.empty())
     return;
   joined_.emplace(boundary);
-  std::map<std::pair<double, double>, bool> sharp; // by node
+  std::map<std::pair<double, double>, double> wedges; // by node
   for (const InnerArc& arc : inner.arcs) {
     joined_->loops.push_back(loop_of(arc));
     if (arc.closed)
       continue;
     const Vec2 start = arc.pieces.front().start, end = arc.pieces.back().end;
-    sharp[{start.x, start.y}] = arc.sharp_start;
-    sharp[{end.x, end.y}] = arc.sharp_end;
+    wedges[{start.x, start.y}] = arc.start_wedge;
+    wedges[{end.x, end.y}] = arc.end_wedge;
   }
   for (std::size_t k = 0; k < boundary_loops(); ++k)
     for (Piece& piece : joined_->loops[k].pieces)
-      if (const auto node = sharp.find({piece.start.x, piece.start.y}); node != sharp.end())
-        piece.sharp = node->second;
+      if (const auto node = wedges.find({piece.start.x, piece.start.y}); node != wedges.end())
+        piece.wedge = node->second;
   for (std::size_t k = boundary_loops(); k < joined_->loops.size() && !corners.empty(); ++k)
     for (Piece& piece : joined_->loops[k].pieces)
       piece.corner |= std::binary_search(corners.begin(), corners.end(), piece.start, geometry::lexicographically_less);

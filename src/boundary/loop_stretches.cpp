@@ -35,12 +35,13 @@ struct Junctions {
   std::vector<double> others;   // t of those that may be left out: features below the resolution
 };
 
-/// The two sides of an open curve, which is a loop there and back, need no shells at its ends.
+/// The two sides of an open curve, which is a loop there and back, are no wedge.
 LoopCorner corner_at(const LoopMetric& metric, std::size_t piece) {
   const geometry::Loop& loop = metric.loop();
   const bool is_end = loop.turning > 0 && (piece == 0 || piece == loop.turning);
-  const bool sharp = !is_end && (loop.pieces[piece].sharp || loop.turn_degrees(piece) > BoundaryRules::sharp_turn);
-  return {metric.piece_t(piece), loop.pieces[piece].start, sharp, {}, {}};
+  const double wedge = loop.pieces[piece].wedge;
+  const bool sharp = wedge > 0 || (!is_end && loop.turn_degrees(piece) > BoundaryRules::sharp_turn);
+  return {metric.piece_t(piece), loop.pieces[piece].start, sharp, wedge, {}, {}};
 }
 
 /// A junction that turns by more than the corner angle, or where parts of the shape meet.
@@ -147,6 +148,26 @@ void make_shells(const LoopMetric& metric, const Arms& arms, LoopCorner& corner)
   }
 }
 
+/// Sites at equal distances from a node of curves, one local size apart, until the two curves with the smallest angle
+/// are that far apart. All curves at the node get the same distances.
+void make_wedge_shells(const LoopMetric& metric, const Arms& arms, LoopCorner& corner) {
+  const double h = metric.size(corner.t), gap = 2 * sin_cos(0.5 * corner.wedge).sin;
+  const int shells = static_cast<int>(std::ceil(std::fmin(1 / gap, BoundaryRules::most_shells)));
+  double ahead = corner.t, behind = corner.t;
+  for (int shell = 1; shell <= shells; ++shell) {
+    const auto next = metric.first_at_radius(ahead, arms.ahead_end, corner.position, shell * h);
+    if (!next || *next > arms.ahead_limit)
+      break;
+    corner.ahead.push_back(ahead = *next);
+  }
+  for (int shell = 1; shell <= shells; ++shell) {
+    const auto next = metric.first_at_radius(behind, arms.behind_end, corner.position, shell * h);
+    if (!next || *next < arms.behind_limit)
+      break;
+    corner.behind.push_back(behind = *next);
+  }
+}
+
 long intervals_of(const LoopMetric& metric, double from, double to) {
   const double by_turn = std::ceil(std::fabs(metric.summarize(from, to, {}, {}).turn) / BoundaryRules::largest_turn);
   return std::max({1L, std::lround(to - from), std::lround(by_turn)});
@@ -210,7 +231,9 @@ LoopStretches cut_into_stretches(const LoopMetric& metric, double corner_angle, 
   std::vector<LoopCorner>& corners = junctions.kept;
   thread_loop(std::ssize(corners), 16, [&](std::ptrdiff_t item, int) {
     const auto k = static_cast<std::size_t>(item);
-    if (corners[k].sharp)
+    if (corners[k].wedge > 0)
+      make_wedge_shells(metric, arms_of(corners, k, metric.total()), corners[k]);
+    else if (corners[k].sharp)
       make_shells(metric, arms_of(corners, k, metric.total()), corners[k]);
   });
   LoopStretches cut;

@@ -14,6 +14,7 @@ struct LoopCorner {
   double t;
   geometry::Vec2 position;
   bool sharp;
+  double wedge;                      // Piece::wedge
   std::vector<double> ahead, behind; // coordinates t of the shells on the two sides, from the corner outwards; not
                                      // reduced modulo the loop's length
 };

@@ -18,6 +18,8 @@ struct BoundaryRules {
   static constexpr double sharp_turn = 120;
   /// [radians] Largest turn of a curve that one boundary edge may replace: 60 degrees, and an allowance for rounding.
   static constexpr double largest_turn = pi / 3 + 1e-6;
+  /// [shells] Largest number of shells around a node of curves: those of a wedge of one degree. Not measured.
+  static constexpr double most_shells = 58;
   /// [h] A corner whose two sides are at least this long is always kept.
   static constexpr double long_arm = 2;
   /// [radians] If a curve between two long sides turns by more than this over a short length, it is the end of a slit.

@@ -5,6 +5,7 @@
 #include "boundary/site_tree.hpp"
 #include "comm/agree.hpp"
 #include "core/thread_loop.hpp"
+#include "polygon/both_sides.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +22,9 @@ constexpr double narrow_gap = 0.65;
 
 // [asked h] No limit of the size is lower, so that lowering ends in wedges.
 constexpr double least_limit = 0.05;
+
+// [asked h] The same where curves lie inside the shape: they are not simplified, and may pass each other much closer.
+constexpr double least_limit_with_curves = 0.002;
 
 // [chord lengths] Of the center of the circle that sees the chord at 75 degrees: 0.5 / tan(75 degrees).
 constexpr double lens_offset = 0.134;
@@ -62,7 +66,7 @@ private:
     const auto add = [&](Vec2 place, double limit, double h) {
       if (!(limit < BoundaryRules::least_lowering * h))
         return;
-      limit = std::fmax(limit, least_limit * asked_.size(place));
+      limit = std::fmax(limit, least_limit_ * asked_.size(place));
       if (limit < BoundaryRules::least_lowering * h) // else it is as low already as it may become
         limits.push_back({place, limit});
     };
@@ -142,12 +146,19 @@ private:
     return gap;
   }
 
+  /// Are the sites at one place? A curve inside has a site on each side.
+  bool is_at(LocalIndex k, LocalIndex other) const {
+    return k == other || boundary_.sites[static_cast<std::size_t>(k)].position ==
+                             boundary_.sites[static_cast<std::size_t>(other)].position;
+  }
+
   /// Are the sites at most two chords apart, or on the arms of one sharp corner?
   bool is_around_corner(LocalIndex k, LocalIndex other) const {
     LocalIndex forward = k, backward = k;
     bool sharp_ahead = is_sharp(k), sharp_behind = sharp_ahead;
     for (int hop = 0; hop <= longest_arms; ++hop) {
-      if ((forward == other && (hop <= 2 || sharp_ahead)) || (backward == other && (hop <= 2 || sharp_behind)))
+      if ((is_at(forward, other) && (hop <= 2 || sharp_ahead)) ||
+          (is_at(backward, other) && (hop <= 2 || sharp_behind)))
         return true;
       forward = next(forward);
       backward = previous(backward);
@@ -173,12 +184,13 @@ private:
   bool is_near(LocalIndex k, LocalIndex other) const {
     const auto& sites = boundary_.sites;
     const LocalIndex next = sites[k].next, previous = sites[k].previous;
-    return other == k || other == next || other == previous || other == sites[next].next;
+    return is_at(other, k) || is_at(other, next) || is_at(other, previous) || is_at(other, sites[next].next);
   }
 
   const BoundarySites& boundary_;
   const sizing::SizeField &size_, &asked_;
   const LocalIndex first_, last_;
+  const double least_limit_ = boundary_.inner.empty() ? least_limit : least_limit_with_curves;
   const std::vector<double> site_sizes_; // of each of these chords, where it starts
   const SiteTree tree_;
   std::vector<char> sharp_; // for each site, whether its chords meet sharply
@@ -211,9 +223,11 @@ std::vector<sizing::SizeLimit> size_limits(const BoundarySites& boundary, const 
       [&](std::ptrdiff_t k, std::vector<sizing::SizeLimit>& kept) { keep_unless_implied(all, gradation, k, kept); });
 }
 
-std::vector<sizing::SizeLimit> size_limits(const comm::Communicator& comm, const BoundarySites& boundary,
+std::vector<sizing::SizeLimit> size_limits(const comm::Communicator& comm, const BoundarySites& given,
                                            const sizing::SizeField& size, const sizing::SizeField& asked,
                                            double gradation) {
+  const BoundarySites sides = given.inner.empty() ? BoundarySites() : polygon::with_both_sides(given);
+  const BoundarySites& boundary = given.inner.empty() ? given : sides;
   const auto chords = static_cast<std::int64_t>(boundary.sites.size());
   const auto share_of = [&](int rank) { return static_cast<LocalIndex>(chords * rank / comm.size()); };
   const std::vector<sizing::SizeLimit> all = comm::gather_agreed<sizing::SizeLimit>(

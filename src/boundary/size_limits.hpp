@@ -22,7 +22,7 @@ std::vector<sizing::SizeLimit> size_limits(const polygon::BoundarySites& boundar
                                            const sizing::SizeField& asked, double gradation);
 
 /// Returns the same limits as the function above, computed by all ranks together: each rank examines a share of the
-/// chords and of the sites near them. Collective.
+/// chords and of the sites near them. Both sides of the curves inside count. Collective.
 std::vector<sizing::SizeLimit> size_limits(const comm::Communicator& comm, const polygon::BoundarySites& boundary,
                                            const sizing::SizeField& size, const sizing::SizeField& asked,
                                            double gradation);

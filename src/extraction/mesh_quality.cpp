@@ -4,6 +4,7 @@
 #include "core/angle.hpp"
 #include "core/elementary.hpp"
 #include "extraction/rules.hpp"
+#include "polygon/both_sides.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -83,8 +84,9 @@ double inside_angle(const polygon::BoundarySites& boundary, LocalIndex k) {
 
 } // namespace
 
-SharpCorners::SharpCorners(const polygon::BoundarySites& boundary, const geometry::Periods& periods)
-    : periods_(periods) {
+SharpCorners::SharpCorners(const polygon::BoundarySites& given, const geometry::Periods& periods) : periods_(periods) {
+  const polygon::BoundarySites sides = given.inner.empty() ? polygon::BoundarySites() : polygon::with_both_sides(given);
+  const polygon::BoundarySites& boundary = given.inner.empty() ? given : sides;
   for (LocalIndex k = 0; k < std::ssize(boundary.sites); ++k)
     if (boundary.sites[at(k)].corner)
       if (const double degrees = inside_angle(boundary, k); degrees < ExtractionRules::sharp_degrees) {

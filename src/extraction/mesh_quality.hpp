@@ -22,7 +22,7 @@ namespace trime::extraction {
 /// All corners of the boundary with an interior angle below 60 degrees. The list is the same on every rank. Immutable.
 class SharpCorners {
 public:
-  SharpCorners(const polygon::BoundarySites& boundary, const geometry::Periods& periods);
+  SharpCorners(const polygon::BoundarySites& given, const geometry::Periods& periods);
 
   /// A corner and its angle in degrees. An angle of 0 means that there is no corner.
   struct Corner {

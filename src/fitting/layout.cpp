@@ -159,8 +159,9 @@ std::unique_ptr<BoundaryRefiner> make_refiner(const LayoutContext& context, std:
   const FeatureRule rule{keeps_all ? 0 : context.options.features.tolerance,
                          keeps_all ? 0 : BoundaryRules::least_perimeter, context.options.features.components,
                          context.options.features.component_place};
-  const auto curves = std::make_shared<const boundary::LaidCurves>(generalised_curves(context, fitted, stage),
-                                                                   context.domain.curves(), context.fixed.on_curves());
+  const geometry::Boundary& boundary = generalised_curves(context, fitted, stage);
+  const auto curves = std::make_shared<const boundary::LaidCurves>(
+      boundary, inner_curves(context, stage.asked_size(), boundary, fitted.curves), context.fixed.on_curves());
   const auto make = [&](const BoundarySizes& sizes) {
     return std::make_unique<BoundaryRefiner>(curves, sizes, context.lattice, context.options.features.corner_angle,
                                              context.fixed.inside(), context.fixed.held(), rule, affordable);

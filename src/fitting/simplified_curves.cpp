@@ -7,6 +7,7 @@
 #include "core/thread_loop.hpp"
 #include "fitting/rules.hpp"
 #include "generalise/generalised_bytes.hpp"
+#include "generalise/thin_inner_curves.hpp"
 #include "sizing/lowered_size.hpp"
 #include "trime/geometry/lattice.hpp"
 
@@ -133,6 +134,19 @@ void simplify_curves(const LayoutContext& context, const sizing::SizeField& aske
   if (found)
     found->counts.widest_severed *= context.options.features.within / generalise::reference_distance;
   curves.found = std::move(found);
+}
+
+const geometry::InnerCurves& inner_curves(const LayoutContext& context, const sizing::SizeField& asked,
+                                          const Boundary& boundary, CurvesAtSize& curves) {
+  const geometry::InnerCurves& given = context.domain.curves();
+  if (given.empty() || !generalises(context))
+    return given;
+  if (!curves.inner || curves.inner_factor != curves.factor) {
+    curves.inner = std::make_shared<geometry::InnerCurves>(generalise::thin_inner_curves(
+        given, boundary, generalised_size(context, asked), context.lattice, context.fixed.on_curves()));
+    curves.inner_factor = curves.factor;
+  }
+  return *curves.inner;
 }
 
 bool one_rank_simplifies(const LayoutContext& context) {

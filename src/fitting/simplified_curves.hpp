@@ -19,6 +19,8 @@ struct CurvesAtSize {
   double factor = 0;                                    ///< factor of the relative size
   std::shared_ptr<const generalise::Generalised> found; ///< null if nothing was simplified
   std::shared_ptr<const boundary::SizeSamples> samples; ///< samples of the relative size on it; made when needed
+  std::shared_ptr<const geometry::InnerCurves> inner;   ///< the curves inside, simplified; null if they are not
+  double inner_factor = 0;                              ///< the value of `factor` for which `inner` was made
   bool held = false;                                    ///< if true, the curves are also used at other factors
 
   // Only on ranks that simplify, see share_simplified_curves.
@@ -46,6 +48,12 @@ sizing::ScaledSize generalised_size(const LayoutContext& context, const sizing::
 /// @param asked the size: the relative size times `factor`
 /// @throws GeometryError if a size is not positive and finite
 void simplify_curves(const LayoutContext& context, const sizing::SizeField& asked, double factor, CurvesAtSize& curves);
+
+/// @brief Returns the curves inside the shape at the resolution of the size for which the boundary was simplified.
+/// Local: all ranks get the same result. @pre simplify_curves was called
+/// @param boundary the boundary that is meshed
+const geometry::InnerCurves& inner_curves(const LayoutContext& context, const sizing::SizeField& asked,
+                                          const geometry::Boundary& boundary, CurvesAtSize& curves);
 
 /// Returns whether rank 0 simplifies the boundary for all ranks because it has many pieces. All ranks return the same.
 bool one_rank_simplifies(const LayoutContext& context);

@@ -44,7 +44,7 @@ std::string physical_names(const ExchangeMesh& mesh) {
   const std::vector<std::size_t> parts = parts_with_edges(mesh);
   std::string text = fmt::format("$PhysicalNames\n{}\n", parts.size() + names.regions.size());
   for (const std::size_t k : parts)
-    text += fmt::format("{} {} {}\n", curve, k + 1, quoted(names.parts[k]));
+    text += fmt::format("{} {} {}\n", curve, k + 1, quoted(mesh.line_names()[k]));
   for (std::size_t k = 0; k < names.regions.size(); ++k)
     text += fmt::format("{} {} {}\n", surface, k + 1, quoted(surface_name(names.regions[k], mesh, parts)));
   return text + "$EndPhysicalNames\n";

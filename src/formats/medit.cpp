@@ -8,12 +8,13 @@
 namespace trime::formats {
 namespace {
 
-std::string comments(const Names& names) {
+std::string comments(const ExchangeMesh& mesh) {
   std::string text;
-  for (std::size_t k = 0; k < names.parts.size(); ++k)
-    text += fmt::format("# edges {}: {}\n", k + 1, names.parts[k]);
-  for (std::size_t k = 0; k < names.regions.size(); ++k)
-    text += fmt::format("# triangles {}: {}\n", k + 1, names.regions[k]);
+  for (std::size_t k = 0; k < mesh.line_names().size(); ++k)
+    text += fmt::format("# edges {}: {}\n", k + 1, mesh.line_names()[k]);
+  const std::vector<std::string>& regions = mesh.names().regions;
+  for (std::size_t k = 0; k < regions.size(); ++k)
+    text += fmt::format("# triangles {}: {}\n", k + 1, regions[k]);
   return text;
 }
 
@@ -21,7 +22,7 @@ std::string comments(const Names& names) {
 
 std::vector<FilePlan> plan_medit(const ExchangeMesh& mesh, const std::string& path) {
   return {{path,
-           {mesh.once(fmt::format("MeshVersionFormatted 2\n{}\nDimension 2\n\nVertices\n{}\n", comments(mesh.names()),
+           {mesh.once(fmt::format("MeshVersionFormatted 2\n{}\nDimension 2\n\nVertices\n{}\n", comments(mesh),
                                   mesh.points())),
             mesh.point_rows([&mesh](std::int64_t row, GlobalId, geometry::Vec2 p, std::string& to) {
               append_line(to, p.x, p.y, mesh.point_label(row));

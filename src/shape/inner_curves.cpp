@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shape/inner_curves.hpp"
 
+#include "core/angle.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -13,7 +15,7 @@ using geometry::InnerArc;
 using geometry::Piece;
 using geometry::Vec2;
 
-constexpr double sharp_cosine = 0.5; // of 60 degrees
+constexpr double sharp_angle = pi / 3;
 
 Piece reversed(Piece piece) {
   std::swap(piece.start, piece.end);
@@ -113,14 +115,15 @@ public:
     add(piece.start, piece.tangent(0));
     add(piece.end, -1 * piece.tangent(piece.length()));
   }
-  /// Do two curves leave the node at less than 60 degrees?
-  bool is_sharp(Vec2 node) const {
+  /// Returns the smallest angle between two curves at the node, or 0 if it is not below 60 degrees.
+  double wedge(Vec2 node) const {
     const std::vector<Vec2>& arms = arms_.at({node.x, node.y});
+    double least = sharp_angle;
     for (std::size_t k = 0; k < arms.size(); ++k)
       for (std::size_t j = 0; j < k; ++j)
-        if (geometry::dot(arms[k], arms[j]) > sharp_cosine)
-          return true;
-    return false;
+        least =
+            std::fmin(least, std::fabs(angle_of(geometry::cross(arms[k], arms[j]), geometry::dot(arms[k], arms[j]))));
+    return least < sharp_angle ? least : 0;
   }
 
 private:
@@ -147,8 +150,8 @@ std::vector<InnerArc> join_pieces(std::vector<CurvePiece> pieces, const std::vec
       directions.add_both(piece);
   for (InnerArc& arc : arcs)
     if (!arc.closed) {
-      arc.sharp_start = directions.is_sharp(arc.pieces.front().start);
-      arc.sharp_end = directions.is_sharp(arc.pieces.back().end);
+      arc.start_wedge = directions.wedge(arc.pieces.front().start);
+      arc.end_wedge = directions.wedge(arc.pieces.back().end);
     }
   return arcs;
 }

@@ -22,7 +22,8 @@ struct Piece {
   int part = 0;           ///< the part of the shape from which the piece comes, as an index into Boundary::part_names
   bool circular = false;
   bool corner = false; ///< the mesh keeps the start as a corner, even if the curve hardly turns there
-  bool sharp = false;  ///< another curve meets this one at the start at less than 60 degrees
+  double wedge = 0; ///< [radians] smallest angle between curves that meet at the start, if one of them lies inside the
+                    ///< shape and the angle is below 60 degrees; otherwise 0
 
   /// Returns the arc length of the piece.
   double length() const;
@@ -84,10 +85,10 @@ struct Boundary {
 /// @brief A part of the curves inside a shape, from node to node. A node is an end of a curve, a place where curves
 /// meet or cross each other or the boundary, or a place where another curve begins. Arcs meet only in nodes.
 struct InnerArc {
-  std::vector<Piece> pieces; ///< each begins where the piece before it ends; Piece::part is an index into
-                             ///< InnerCurves::names
-  bool closed = false;       ///< a ring without a node: it ends where it begins
-  bool sharp_start = false, sharp_end = false; ///< another curve meets the arc there at less than 60 degrees
+  std::vector<Piece> pieces;             ///< each begins where the piece before it ends; Piece::part is an index into
+                                         ///< InnerCurves::names
+  bool closed = false;                   ///< a ring without a node: it ends where it begins
+  double start_wedge = 0, end_wedge = 0; ///< Piece::wedge at its ends
 };
 
 /// @brief The curves inside a shape that edges of the mesh follow, cut at all their crossings. The mesh keeps all nodes

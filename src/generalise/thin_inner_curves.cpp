@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "generalise/thin_inner_curves.hpp"
+
+#include "generalise/rules.hpp"
+#include "generalise/vertex_tree.hpp"
+#include "trime/core/types.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace trime::generalise {
+namespace {
+
+using geometry::InnerArc;
+using geometry::Piece;
+using geometry::Vec2;
+
+/// The loops of the boundary, then the pieces of each arc. An open arc has one piece more, without length, at its end.
+geometry::Boundary all_curves(const geometry::InnerCurves& curves, const geometry::Boundary& boundary) {
+  geometry::Boundary all = boundary;
+  for (const InnerArc& arc : curves.arcs) {
+    geometry::Loop& loop = all.loops.emplace_back();
+    loop.pieces = arc.pieces;
+    if (arc.closed)
+      continue;
+    Piece& end = loop.pieces.emplace_back();
+    end.start = end.end = arc.pieces.back().end;
+  }
+  return all;
+}
+
+/// Removes vertices of arcs one after the other.
+class ArcThinner {
+public:
+  ArcThinner(const InnerArc& arc, std::vector<LocalIndex> vertices, const sizing::SizeField& size, VertexTree& tree,
+             std::span<const Vec2> corners)
+      : arc_(arc), vertices_(std::move(vertices)), size_(size), tree_(tree), corners_(corners) {
+    const std::size_t n = vertices_.size();
+    for (std::size_t k = 0; k < n; ++k) {
+      next_.push_back(k + 1 < n ? k + 1 : 0);
+      previous_.push_back(k > 0 ? k - 1 : n - 1);
+    }
+    is_gone_.assign(n, 0);
+    left_ = n;
+  }
+
+  InnerArc run() {
+    std::set<std::tuple<double, std::size_t>> queue; // by the area of the triangle
+    std::vector<double> areas(vertices_.size(), 0);
+    const auto enter = [&](std::size_t k, double least) {
+      if (!may_go(k))
+        return;
+      areas[k] = std::fmax(least, area_at(k));
+      queue.insert({areas[k], k});
+    };
+    for (std::size_t k = 0; k < vertices_.size(); ++k)
+      enter(k, 0);
+    const std::size_t least_left = arc_.closed ? GeneraliseRules::least_vertices : 2;
+    while (!queue.empty() && left_ > least_left) {
+      const auto [area, k] = *queue.begin();
+      queue.erase(queue.begin());
+      if (!has_way(k, area))
+        continue; // until a neighbour goes
+      is_gone_[k] = 1;
+      --left_;
+      tree_.remove(vertices_[k]);
+      next_[previous_[k]] = next_[k];
+      previous_[next_[k]] = previous_[k];
+      for (const std::size_t neighbour : {previous_[k], next_[k]}) {
+        queue.erase({areas[neighbour], neighbour});
+        enter(neighbour, area);
+      }
+    }
+    return result();
+  }
+
+private:
+  Vec2 place(std::size_t k) const { return k < arc_.pieces.size() ? arc_.pieces[k].start : arc_.pieces.back().end; }
+
+  /// Ends of an open arc stay, and what the user asked for.
+  bool may_go(std::size_t k) const {
+    if (is_gone_[k] != 0 || (!arc_.closed && (k == 0 || k + 1 == vertices_.size())))
+      return false;
+    const Piece &before = arc_.pieces[k > 0 ? k - 1 : arc_.pieces.size() - 1], &behind = arc_.pieces[k];
+    return !behind.corner && !behind.circular && !before.circular && before.part == behind.part &&
+           !std::binary_search(corners_.begin(), corners_.end(), place(k), geometry::lexicographically_less);
+  }
+
+  double area_at(std::size_t k) const {
+    const Vec2 a = place(previous_[k]), b = place(next_[k]);
+    return 0.5 * std::fabs(geometry::cross(b - a, place(k) - a));
+  }
+
+  bool has_way(std::size_t k, double area) const {
+    const double h = sizing::checked_size(size_, place(k)), most = GeneraliseRules::vertex_move * h;
+    const geometry::Segment chord{place(previous_[k]), place(next_[k])};
+    return area < GeneraliseRules::vertex_area * h * h && chord.a != chord.b &&
+           geometry::squared_distance(place(k), chord) <= most * most &&
+           tree_.is_empty({vertices_[previous_[k]], vertices_[k], vertices_[next_[k]]});
+  }
+
+  InnerArc result() const {
+    InnerArc thinned = arc_;
+    thinned.pieces.clear();
+    for (std::size_t k = 0; k < arc_.pieces.size(); ++k) {
+      if (is_gone_[k] != 0)
+        continue;
+      thinned.pieces.push_back(arc_.pieces[k]);
+      if (next_[k] != k + 1)
+        thinned.pieces.back().end = place(next_[k]);
+    }
+    return thinned;
+  }
+
+  const InnerArc& arc_;
+  const std::vector<LocalIndex> vertices_; // numbers in the tree
+  const sizing::SizeField& size_;
+  VertexTree& tree_;
+  std::span<const Vec2> corners_;
+  std::vector<std::size_t> next_, previous_;
+  std::vector<char> is_gone_;
+  std::size_t left_ = 0;
+};
+
+} // namespace
+
+geometry::InnerCurves thin_inner_curves(const geometry::InnerCurves& curves, const geometry::Boundary& boundary,
+                                        const sizing::SizeField& size, const geometry::Lattice& lattice,
+                                        std::span<const Vec2> corners) {
+  const geometry::Boundary all = all_curves(curves, boundary);
+  VertexTree tree(all, lattice, {});
+  std::map<std::pair<double, double>, LocalIndex> nodes; // one vertex for all curves that meet in a node
+  std::vector<std::vector<LocalIndex>> vertices;
+  for (std::size_t loop = 0; loop < all.loops.size(); ++loop) {
+    vertices.push_back(tree.starts_of_loop(loop));
+    if (loop >= boundary.loops.size() && !curves.arcs[loop - boundary.loops.size()].closed)
+      for (const Piece* piece : {&all.loops[loop].pieces.front(), &all.loops[loop].pieces.back()})
+        nodes[{piece->start.x, piece->start.y}] = -1;
+  }
+  for (std::size_t loop = 0; loop < all.loops.size(); ++loop)
+    for (std::size_t k = 0; k < vertices[loop].size(); ++k) {
+      const Vec2 p = all.loops[loop].pieces[k].start;
+      const auto node = nodes.find({p.x, p.y});
+      if (node == nodes.end())
+        continue;
+      if (node->second < 0)
+        node->second = vertices[loop][k];
+      else
+        tree.remove(vertices[loop][k]);
+      vertices[loop][k] = node->second;
+    }
+  geometry::InnerCurves thinned{{}, curves.names};
+  for (std::size_t k = 0; k < curves.arcs.size(); ++k)
+    thinned.arcs.push_back(ArcThinner(curves.arcs[k], vertices[boundary.loops.size() + k], size, tree, corners).run());
+  return thinned;
+}
+
+} // namespace trime::generalise

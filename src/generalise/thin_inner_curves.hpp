@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Simplifies the curves inside a shape to the resolution of a mesh.
+#pragma once
+
+#include "trime/geometry/boundary.hpp"
+#include "trime/geometry/lattice.hpp"
+#include "trime/geometry/vec2.hpp"
+#include "trime/sizing/size_field.hpp"
+
+#include <span>
+
+namespace trime::generalise {
+
+/// @brief Returns the curves without vertices whose removal changes little. Among the vertices of an arc, that one goes
+/// first whose triangle with its neighbours has the smallest area (Visvalingam and Whyatt 1993), as long as this area
+/// is below GeneraliseRules::vertex_area h^2 and no vertex moves the curve by more than GeneraliseRules::vertex_move h.
+///
+/// Nodes, corners that the user asked for, and all other curves stay on their side: a vertex stays if its triangle
+/// contains a vertex of another curve or of the boundary (see VertexTree). Only straight pieces are changed. Cost: O(n
+/// log n) for n pieces of the curves and the boundary.
+/// @param boundary the boundary that is meshed
+/// @param corners vertices that stay, in lexicographic order
+/// @throws GeometryError if a size is not positive and finite
+geometry::InnerCurves thin_inner_curves(const geometry::InnerCurves& curves, const geometry::Boundary& boundary,
+                                        const sizing::SizeField& size, const geometry::Lattice& lattice,
+                                        std::span<const geometry::Vec2> corners);
+
+} // namespace trime::generalise
