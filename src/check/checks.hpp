@@ -33,6 +33,10 @@ bool check_arrays(const StoredFile& file, const Mesh& mesh, Report& report);
 /// Checks orientation, edges, Delaunay property, loops of facets, Euler characteristic, area and tags.
 Counted check_surface(const StoredFile& file, const Mesh& mesh, Report& report);
 
+/// Checks the edges on curves inside the shape, if the file has any: each is an edge of two triangles, and no vertex
+/// lies in its diametral disc.
+void check_curves(const StoredFile& file, const Mesh& mesh, Report& report);
+
 /// Checks the sizes of points and facets.
 void check_sizes(const StoredFile& file, const Mesh& mesh, Report& report);
 

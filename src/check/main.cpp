@@ -41,6 +41,7 @@ int run(const std::vector<std::string>& arguments) {
   trime_check::Report report;
   if (trime_check::read_mesh(file, mesh, report) && trime_check::check_arrays(file, mesh, report)) {
     const trime_check::Counted counted = trime_check::check_surface(file, mesh, report);
+    trime_check::check_curves(file, mesh, report);
     trime_check::check_summary(file, mesh, counted, report);
     trime_check::check_tables(file, mesh, counted, report);
     trime_check::check_shape(file, mesh, arguments.size() > 1 ? arguments[1] : "", report);

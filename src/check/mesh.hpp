@@ -45,6 +45,8 @@ struct Mesh {
   std::vector<std::int64_t> facet_tags, facet_parts, facet_labels;
   std::vector<std::int64_t> facet_markers; ///< empty if no part of the shape has markers
   std::vector<double> asked_sizes;
+  std::vector<Facet> curve_edges; ///< edges on curves inside the shape; empty if the file has none
+  std::vector<std::int64_t> curve_numbers, curve_labels;
 
   std::vector<double> alpha, beta, size;
   std::vector<std::int64_t> region, boundary, fixed;

@@ -257,6 +257,13 @@ void read_fields(const ArrayReader& reader, Mesh& mesh) {
   if (reader.file.has("/Mesh/facets/markers"))
     mesh.facet_markers = reader.integers("/Mesh/facets/markers", "int32", {b});
   mesh.asked_sizes = reader.reals("/Mesh/facets/asked_size", "float32", {b});
+  if (reader.file.has("/Mesh/curves")) {
+    const std::vector<std::int64_t> ends = reader.integers("/Mesh/curves/topology", "int64", {-1, 2});
+    for (std::size_t k = 0; k + 1 < ends.size(); k += 2)
+      mesh.curve_edges.push_back({ends[k], ends[k + 1]});
+    mesh.curve_numbers = reader.integers("/Mesh/curves/values", "int32", {std::ssize(mesh.curve_edges)});
+    mesh.curve_labels = reader.integers("/Mesh/curves/labels", "int32", {std::ssize(mesh.curve_edges)});
+  }
   const std::string fields = mesh.has_vtk ? "/VTKHDF/" : "/Mesh/";
   mesh.alpha = reader.reals(fields + "CellData/alpha", "float32", {m});
   mesh.beta = reader.reals(fields + "CellData/beta", "float32", {m});

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "checks.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace trime_check {
+namespace {
+
+/// Cosine of the largest angle opposite to a chord, 90 degrees, with room for rounding.
+constexpr double least_cosine = -1e-11;
+
+/// All that looks at the edges on curves.
+class CurveChecks {
+public:
+  CurveChecks(const StoredFile& file, const Mesh& mesh, Report& report) : file_(file), mesh_(mesh), report_(report) {}
+
+  void run() {
+    if (!check_ranges())
+      return;
+    for (const Facet& edge : mesh_.curve_edges)
+      triangles_.try_emplace(ascending(edge), 0);
+    Tally twice, wide;
+    for (const Facet& edge : mesh_.curve_edges)
+      if (++listed_[ascending(edge)] > 1)
+        twice.note([&] { return place_of(mesh_, edge); });
+    for (const Triangle& t : mesh_.triangles)
+      for (std::size_t k = 0; k < 3; ++k)
+        if (const auto found = triangles_.find(ascending({t[(k + 1) % 3], t[(k + 2) % 3]}));
+            found != triangles_.end()) {
+          ++found->second;
+          if (cosine_at(t, k) < least_cosine)
+            wide.note([&] { return place_of(mesh_, found->first); });
+        }
+    Tally no_edges;
+    for (const auto& [edge, count] : triangles_)
+      if (count != 2)
+        no_edges.note([&] { return place_of(mesh_, edge); });
+    report_.none("curve_edges", no_edges, "edges on curves that are not edges of two triangles");
+    report_.none("curve_once", twice, "edges on curves that are listed twice");
+    report_.none("curve_discs", wide, "edges on curves with an angle above 90 degrees opposite to them");
+  }
+
+private:
+  static Facet ascending(const Facet& edge) { return {std::min(edge[0], edge[1]), std::max(edge[0], edge[1])}; }
+
+  /// Returns false if the numbers are so wrong that nothing more can be checked.
+  bool check_ranges() {
+    const auto points = static_cast<std::int64_t>(mesh_.points.size());
+    const auto curves = static_cast<std::int64_t>(file_.names("/trime_mpi/curves/curve_name").size());
+    const auto parts = static_cast<std::int64_t>(file_.names("/trime_mpi/tags/part_name").size());
+    Tally ids, numbers;
+    for (std::size_t k = 0; k < mesh_.curve_edges.size(); ++k) {
+      for (const std::int64_t id : mesh_.curve_edges[k])
+        if (id < 0 || id >= points)
+          ids.note([&] { return fmt::format("edge {}", k); });
+      const std::int64_t number = mesh_.curve_numbers[k];
+      if (number < 0 || number >= curves || mesh_.curve_labels[k] != parts + number + 1)
+        numbers.note([&] { return fmt::format("edge {}", k); });
+    }
+    report_.none("curve_ids", ids, "edges on curves with a point that does not exist");
+    report_.none("curve_labels", numbers,
+                 "edges on curves whose curve has no name, or whose label is not that of the curve after all parts");
+    return ids.count == 0;
+  }
+
+  double cosine_at(const Triangle& t, std::size_t k) const {
+    const auto corners = mesh_.corners(t);
+    const Point u = corners[(k + 1) % 3] - corners[k], v = corners[(k + 2) % 3] - corners[k];
+    return (u.x * v.x + u.y * v.y) / (std::hypot(u.x, u.y) * std::hypot(v.x, v.y));
+  }
+
+  const StoredFile& file_;
+  const Mesh& mesh_;
+  Report& report_;
+  std::map<Facet, int> triangles_, listed_;
+};
+
+} // namespace
+
+void check_curves(const StoredFile& file, const Mesh& mesh, Report& report) {
+  if (!mesh.curve_edges.empty())
+    CurveChecks(file, mesh, report).run();
+}
+
+} // namespace trime_check
