@@ -183,6 +183,27 @@ void add_curves(const CurveOptions& options, const contours::Contour& contour, c
   }
 }
 
+/// Says which curves do not lie inside, and where their names are lost.
+void tell_of(const geometry::InnerCurves& curves, Log& log) {
+  std::vector<char> is_inside(curves.names.size(), 0);
+  for (const geometry::InnerArc& arc : curves.arcs)
+    for (const geometry::Piece& piece : arc.pieces)
+      is_inside[static_cast<std::size_t>(piece.part)] = 1;
+  for (std::size_t k = 0; k < curves.on_boundary.size(); ++k) {
+    if (curves.outside[k] > 0)
+      log.summary("curve '{}': a length of {:.6g} lies outside of the shape and is left out", curves.names[k],
+                  curves.outside[k]);
+    if (curves.on_boundary[k] > 0)
+      log.warning(
+          "curve '{}': a length of {:.6g} lies on the boundary of the shape; the edges there have only the name "
+          "of the boundary",
+          curves.names[k], curves.on_boundary[k]);
+    if (is_inside[k] == 0)
+      log.warning("curve '{}' has no edges of its own: no part of it lies inside the shape and away from other curves",
+                  curves.names[k]);
+  }
+}
+
 void tell_of(const shape::Part& part, Log& log) {
   for (const std::string& warning : part.warnings())
     log.warning("{}", warning);
@@ -254,6 +275,7 @@ ShapeInput read_shape(const RunOptions& given, ShapeUse use, const comm::Communi
     input.shape.emplace(std::move(parts), options.geometry, frame, curves);
   else
     input.alone.emplace(shape::domain_of(std::move(parts), options.geometry, frame, curves));
+  tell_of(input.domain().curves(), log);
   return input;
 }
 

@@ -68,9 +68,9 @@ BuiltSize expression_size(const RunOptions& options, const geometry::Domain& dom
   BuiltSize size;
   size.formula = std::make_unique<const DistanceFormula>(
       sizing.expression, sizing.expression_place, [&](const std::string& name) -> PlaceFunction {
-        const auto boundary =
-            std::make_shared<const sizing::BoundaryDistance>(domain.boundary(), name, images_of(domain));
-        return [boundary](double x, double y) { return boundary->distance({x, y}); };
+        const auto curves = std::make_shared<const sizing::BoundaryDistance>(
+            name.empty() ? domain.boundary() : sizing::named_curves(domain), name, images_of(domain));
+        return [curves](double x, double y) { return curves->distance({x, y}); };
       });
   size.field = std::make_unique<const sizing::DistanceSize>(*size.formula, box);
   size.description = "expression " + sizing.expression;
@@ -85,8 +85,8 @@ void lower_at_boundary(const RunOptions& options, const geometry::Domain& domain
   const double gradation = options.mesh.gradation.value();
   size.base = std::move(size.field);
   try {
-    size.field = std::make_unique<const sizing::BoundarySize>(*size.base, domain.boundary(), sizing.size_at, gradation,
-                                                              images_of(domain));
+    size.field = std::make_unique<const sizing::BoundarySize>(*size.base, sizing::named_curves(domain), sizing.size_at,
+                                                              gradation, images_of(domain));
   } catch (const ConfigError& error) {
     throw ConfigError(fmt::format("{}: {}", sizing.size_at_place, error.what()));
   }

@@ -127,6 +127,8 @@ public:
     geometry::InnerCurves curves;
     for (const Part& curve : curves_.curves)
       curves.names.push_back(curve.name());
+    curves.on_boundary = std::move(on_boundary_length_);
+    curves.outside = std::move(outside_length_);
     curves.arcs = join_pieces(std::move(on_curves_), on_boundary_, boundary_);
     geometry::Domain domain(frame_, std::move(boundary_), std::move(markers));
     domain.set_curves(std::move(curves));
@@ -200,9 +202,10 @@ private:
   const Arrangement arrangement_;
   std::vector<Kept> kept_;
   std::optional<Quotient> nodes_;
-  std::vector<LocalIndex> next_;                // the kept piece that leaves each node, or -1
-  std::vector<CurvePiece> on_curves_;           // those inside the shape
-  std::vector<char> on_boundary_, meets_curve_; // by vertex
+  std::vector<LocalIndex> next_;                            // the kept piece that leaves each node, or -1
+  std::vector<CurvePiece> on_curves_;                       // those inside the shape
+  std::vector<double> on_boundary_length_, outside_length_; // by curve
+  std::vector<char> on_boundary_, meets_curve_;             // by vertex
   Boundary boundary_;
 };
 
@@ -277,10 +280,19 @@ void BoundaryMaker::keep_if_curve(LocalIndex k, const Side& left, const Side& ri
     place = arrangement_.twins()[t].part;
     along = arrangement_.twins()[t].along;
   }
-  if (!is_curve(place) || left.is_region != right.is_region)
+  if (!is_curve(place))
     return;
   const int curve = placed_[static_cast<std::size_t>(place)].index - first_curve();
+  const double length =
+      geometry::length(arrangement_.vertices().point(piece.to) - arrangement_.vertices().point(piece.from));
+  on_boundary_length_.resize(curves_.curves.size());
+  outside_length_.resize(curves_.curves.size());
+  if (left.is_region != right.is_region) {
+    on_boundary_length_[static_cast<std::size_t>(curve)] += length;
+    return;
+  }
   if (!left.is_region) {
+    outside_length_[static_cast<std::size_t>(curve)] += length;
     if (curves_.clip.empty() || curves_.clip[static_cast<std::size_t>(curve)] == 0)
       report_outside(curve, piece);
     return;

@@ -75,6 +75,17 @@ std::vector<int> parts_named(std::string_view name, const std::vector<std::strin
   return found;
 }
 
+geometry::Boundary named_curves(const geometry::Domain& domain) {
+  geometry::Boundary named = domain.boundary();
+  const auto parts = static_cast<int>(named.part_names.size());
+  const geometry::InnerCurves& inner = domain.curves();
+  named.part_names.insert(named.part_names.end(), inner.names.begin(), inner.names.end());
+  for (const geometry::InnerArc& arc : inner.arcs)
+    for (geometry::Piece& piece : named.loops.emplace_back(geometry::Loop{arc.pieces}).pieces)
+      piece.part += parts;
+  return named;
+}
+
 BoundaryDistance::BoundaryDistance(const geometry::Boundary& boundary, std::string_view name, const Images& images)
     : images_(images) {
   constexpr int most_copies = 8;

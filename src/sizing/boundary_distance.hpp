@@ -18,6 +18,10 @@ namespace trime::sizing {
 /// @throws ConfigError that lists the known names if there is no such part
 std::vector<int> parts_named(std::string_view name, const std::vector<std::string>& part_names);
 
+/// @brief Returns the boundary of a domain, and its inner curves as further loops, whose names follow those of the
+/// parts. The result is a list of named curves; it bounds no shape if there are inner curves.
+geometry::Boundary named_curves(const geometry::Domain& domain);
+
 /// @brief Finds the distance to the parts of a boundary. Immutable; queries are thread-safe and give the same bits on
 /// every rank.
 ///

@@ -96,6 +96,9 @@ struct InnerArc {
 struct InnerCurves {
   std::vector<InnerArc> arcs;     ///< in the order of the names, then of the files
   std::vector<std::string> names; ///< of the curves
+  /// Lengths of each curve: on the boundary of the shape, where its edges belong to the boundary; and outside of the
+  /// shape, where it is left out.
+  std::vector<double> on_boundary{}, outside{};
   bool empty() const { return arcs.empty(); }
 };
 
