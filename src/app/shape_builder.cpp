@@ -155,8 +155,8 @@ shape::Part build_part(const PartOptions& part, const contours::Contour& contour
 }
 
 /// The curves NAME, or NAME.VALUE for each value of an attribute, in the order of their first lines.
-void add_curves(const CurveOptions& options, const contours::Contour& contour, const contours::Normalization& place,
-                const geometry::Frame& frame, shape::CurveParts& parts) {
+void add_lines(const CurveOptions& options, const contours::Contour& contour, const contours::Normalization& place,
+               const geometry::Frame& frame, shape::CurveParts& parts) {
   std::map<int, std::size_t> number_of; // by marker
   std::vector<std::string> names;
   std::vector<std::vector<shape::CurveLine>> lines;
@@ -181,6 +181,11 @@ void add_curves(const CurveOptions& options, const contours::Contour& contour, c
     parts.curves.push_back(shape::Part::curve(names[k], std::move(lines[k]), frame));
     parts.clip.push_back(options.clip ? 1 : 0);
   }
+}
+
+void tell_of_file(const contours::Contour& contour, Log& log) {
+  for (const std::string& warning : contour.warnings)
+    log.warning("{}", warning);
 }
 
 /// Says which curves do not lie inside, and where their names are lost.
@@ -223,58 +228,81 @@ std::string read_shared(const std::string& path, const comm::Communicator& comm)
   return comm.broadcast(std::move(text));
 }
 
+namespace {
+
+/// Makes parts and curves from contours, one after the other, and keeps what messages and other files need of them.
+class PartsMaker {
+public:
+  PartsMaker(const RunOptions& options, const geometry::Frame& frame, bool keeps_places, Log& log)
+      : options_(options), frame_(frame), region_(region_of(options)), keeps_places_(keeps_places), log_(log) {}
+
+  /// @param k number of the part @param contour of the part if it is one; it is freed
+  void add_part(std::size_t k, contours::Contour& contour) {
+    const PartOptions& part = options_.parts[k];
+    contours::Normalization place;
+    if (part.normalize)
+      place = contours::fit_to_container(contour, frame_.container());
+    parts.push_back(
+        build_part(part, contour, place, frame_,
+                   touch_options(options_, part, region_.subtracts(static_cast<int>(k)), frame_.container())));
+    if (part.type == "contour" && keeps_places_)
+      found.add(contour, place);
+    contour = {};
+    places[part.name] = place;
+    if (part.normalize)
+      normalized.push_back({part.name, part.file, place.scale, place.to - place.scale * place.from});
+    tell_of(parts.back(), log_);
+  }
+
+  /// @pre all parts were added
+  void add_curve(const CurveOptions& curve, const contours::Contour& contour) {
+    const contours::Normalization place =
+        curve.normalize_with.empty() ? contours::Normalization{} : places.at(curve.normalize_with);
+    add_lines(curve, contour, place, frame_, curves);
+    tell_of_file(contour, log_);
+    if (keeps_places_)
+      found.add(contour, place);
+  }
+
+  std::vector<shape::Part> parts;
+  shape::CurveParts curves;
+  std::map<std::string, contours::Normalization> places; // by name of the part
+  std::vector<NormalizedPart> normalized;
+  UserPlaces found;
+
+private:
+  const RunOptions& options_;
+  const geometry::Frame& frame_;
+  const shape::Region region_;
+  const bool keeps_places_;
+  Log& log_;
+};
+
+} // namespace
+
 /// All ranks build the same shape from the same numbers, so they throw the same errors without asking each other.
 ShapeInput read_shape(const RunOptions& given, ShapeUse use, const comm::Communicator& comm, Log& log,
                       UserPlaces& places) {
   const RunOptions options = with_used_parts(given);
   MapSystem map;
   std::vector<contours::Contour> contours = read_contours(options, comm, log, map);
-  const geometry::Box container =
-      options.container_is_automatic ? automatic_container(options, contours) : options.container;
-  const geometry::Frame frame(container, options.periodic_x, options.periodic_y);
-  const shape::Region region = region_of(options);
-  std::vector<shape::Part> parts;
-  contours::Normalization fixed_points_place;
-  std::map<std::string, contours::Normalization> places_of; // of normalised parts
-  std::vector<NormalizedPart> normalized;
-  UserPlaces found; // messages of the parts below speak of their files already
-  for (std::size_t k = 0; k < options.parts.size(); ++k) {
-    const PartOptions& part = options.parts[k];
-    contours::Normalization place;
-    if (part.normalize)
-      place = contours::fit_to_container(contours[k], frame.container());
-    parts.push_back(build_part(part, contours[k], place, frame,
-                               touch_options(options, part, region.subtracts(static_cast<int>(k)), container)));
-    if (part.type == "contour" && comm.is_root())
-      found.add(contours[k], place);
-    contours[k] = {};
-    if (part.name == options.fixed_points.normalize_with)
-      fixed_points_place = place;
-    places_of[part.name] = place;
-    if (part.normalize)
-      normalized.push_back({part.name, part.file, place.scale, place.to - place.scale * place.from});
-    tell_of(parts.back(), log);
-  }
-  shape::CurveParts curves;
-  for (std::size_t k = 0; k < options.curves.size(); ++k) {
-    const CurveOptions& curve = options.curves[k];
-    const contours::Normalization place =
-        curve.normalize_with.empty() ? contours::Normalization{} : places_of.at(curve.normalize_with);
-    const contours::Contour& contour = contours[options.parts.size() + k];
-    add_curves(curve, contour, place, frame, curves);
-    if (comm.is_root())
-      found.add(contour, place);
-    for (const std::string& warning : contour.warnings)
-      log.warning("{}", warning);
-  }
+  const geometry::Frame frame(options.container_is_automatic ? automatic_container(options, contours)
+                                                             : options.container,
+                              options.periodic_x, options.periodic_y);
+  PartsMaker made(options, frame, comm.is_root(), log); // messages of the parts speak of their files already
+  for (std::size_t k = 0; k < options.parts.size(); ++k)
+    made.add_part(k, contours[k]);
+  for (std::size_t k = 0; k < options.curves.size(); ++k)
+    made.add_curve(options.curves[k], contours[options.parts.size() + k]);
   if (!map.crs.empty())
-    found.set_on_earth([map](geometry::Vec2 place) { return on_earth(map, place); });
-  places = std::move(found);
-  ShapeInput input{{}, {}, fixed_points_place, std::move(normalized), std::move(map)};
+    made.found.set_on_earth([map](geometry::Vec2 place) { return on_earth(map, place); });
+  places = std::move(made.found);
+  ShapeInput input{
+      {}, {}, made.places[options.fixed_points.normalize_with], std::move(made.normalized), std::move(map)};
   if (use == ShapeUse::queries)
-    input.shape.emplace(std::move(parts), options.geometry, frame, curves);
+    input.shape.emplace(std::move(made.parts), options.geometry, frame, made.curves);
   else
-    input.alone.emplace(shape::domain_of(std::move(parts), options.geometry, frame, curves));
+    input.alone.emplace(shape::domain_of(std::move(made.parts), options.geometry, frame, made.curves));
   tell_of(input.domain().curves(), log);
   return input;
 }

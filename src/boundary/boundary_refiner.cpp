@@ -56,11 +56,11 @@ polygon::DroppedLoops drop_loops(const geometry::Boundary& boundary, const sizin
 } // namespace
 
 BoundaryRefiner::BoundaryRefiner(std::shared_ptr<const LaidCurves> curves, const BoundarySizes& sizes,
-                                 const geometry::Lattice& lattice, double corner_angle, std::span<const Vec2> inside,
-                                 std::span<const Vec2> held, const FeatureRule& rule, std::size_t affordable)
+                                 const geometry::Lattice& lattice, const LayoutRequest& request)
     : curves_(std::move(curves)), boundary_(curves_->boundary()), lattice_(lattice),
-      corner_angle_(corner_angle), tolerance_{rule.tolerance}, inside_(inside), inside_tree_(tree_of(inside)),
-      dropped_(drop_loops(boundary_, sizes.asked(), rule, held)), affordable_(affordable) {
+      corner_angle_(request.corner_angle), tolerance_{request.rule.tolerance}, inside_(request.inside),
+      inside_tree_(tree_of(inside_)), dropped_(drop_loops(boundary_, sizes.asked(), request.rule, request.held)),
+      affordable_(request.affordable) {
   const geometry::Boundary& all = curves_->all();
   metrics_.reserve(all.loops.size());
   for (std::size_t k = 0; k < all.loops.size(); ++k) {

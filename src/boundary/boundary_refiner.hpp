@@ -32,17 +32,23 @@ struct Share {
   std::int64_t last(std::int64_t all) const { return all / ranks * (rank + 1) + all % ranks * (rank + 1) / ranks; }
 };
 
+/// What a layout takes besides curves and sizes.
+struct LayoutRequest {
+  double corner_angle;                      ///< [degrees] a junction that turns by more is a corner
+  std::span<const geometry::Vec2> inside{}; ///< points that must not lie in the circles of chords
+  std::span<const geometry::Vec2> held{};   ///< points inside the shape, whose loops are not dropped
+  FeatureRule rule{};                       ///< decides which corners and loops are left out
+  std::size_t affordable = 0; ///< number of sites at which dividing ends, because then the caller needs to know only
+                              ///< that there are too many
+};
+
 /// @brief Places sites on a boundary and on curves inside, loop by loop, and then divides chords (edges between
 /// successive sites) in rounds. Ranks may share the first two steps; their results are joined in the order of the
 /// ranks. See make_boundary_sites.
 class BoundaryRefiner {
 public:
-  /// @param affordable number of sites at which dividing ends, because then the caller needs to know only that there
-  /// are too many
-  /// @param held points inside the shape whose loops are not dropped
   BoundaryRefiner(std::shared_ptr<const LaidCurves> curves, const BoundarySizes& sizes,
-                  const geometry::Lattice& lattice, double corner_angle, std::span<const geometry::Vec2> inside,
-                  std::span<const geometry::Vec2> held, const FeatureRule& rule, std::size_t affordable);
+                  const geometry::Lattice& lattice, const LayoutRequest& request);
 
   /// A chord that must be divided, and the reason.
   struct Cut {

@@ -163,8 +163,10 @@ std::unique_ptr<BoundaryRefiner> make_refiner(const LayoutContext& context, std:
   const auto curves = std::make_shared<const boundary::LaidCurves>(
       boundary, inner_curves(context, stage.asked_size(), boundary, fitted.curves), context.fixed.on_curves());
   const auto make = [&](const BoundarySizes& sizes) {
-    return std::make_unique<BoundaryRefiner>(curves, sizes, context.lattice, context.options.features.corner_angle,
-                                             context.fixed.inside(), context.fixed.held(), rule, affordable);
+    return std::make_unique<BoundaryRefiner>(curves, sizes, context.lattice,
+                                             boundary::LayoutRequest{context.options.features.corner_angle,
+                                                                     context.fixed.inside(), context.fixed.held(), rule,
+                                                                     affordable});
   };
   if (stage.size->is_uniform() || stage.limited_size) // samples of a steep size would lie too far apart
     return make({*stage.size, asked});

@@ -6,6 +6,7 @@
 #include "sizing/lowered_size.hpp"
 
 #include <limits>
+#include <memory>
 #include <span>
 
 namespace trime::testing {
@@ -17,8 +18,10 @@ inline polygon::BoundarySites make_boundary_sites(const geometry::Boundary& boun
                                                   const geometry::Lattice& lattice, double corner_angle,
                                                   std::span<const geometry::Vec2> inside = {},
                                                   const boundary::FeatureRule& rule = {},
-                                                  std::size_t affordable = std::numeric_limits<std::size_t>::max()) {
-  boundary::BoundaryRefiner refiner(boundary, {size, size}, lattice, corner_angle, inside, rule, affordable);
+                                                  std::size_t affordable = std::numeric_limits<std::size_t>::max(),
+                                                  const geometry::InnerCurves& inner = {}) {
+  const auto curves = std::make_shared<const boundary::LaidCurves>(boundary, inner);
+  boundary::BoundaryRefiner refiner(curves, {size, size}, lattice, {corner_angle, inside, inside, rule, affordable});
   refiner.run(refiner.begin(refiner.lay_out({}), {}));
   return refiner.result();
 }

@@ -255,8 +255,9 @@ class Curves(unittest.TestCase):
         (self.directory / "points.xy").write_text("0.3 0.6\n")
         self.write("bent.xy", [(0.1, 0.6), (0.3, 0.6), (0.5, 0.61)])
         config = self.directory / "mesh.ini"
-        config.write_text("[shape]\ngeometry = difference(domain, hole)\n[shape.hole]\ntype = circle\ncenter = 0.5 0.3\n"
-                          f"radius = 0.1\n{section('bent', 'bent.xy')}[meshing]\npoints = 1500\n"
+        config.write_text("[shape]\ngeometry = difference(domain, hole)\n"
+                          "[shape.hole]\ntype = circle\ncenter = 0.5 0.3\nradius = 0.1\n"
+                          f"{section('bent', 'bent.xy')}[meshing]\npoints = 1500\n"
                           f"fixed_points = points.xy\n[output]\ndirectory = {self.directory}\nname = mesh\n")
         done = run(config)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)

@@ -97,8 +97,8 @@ public:
   /// @param region the expression, see Region::parse
   /// @throws ConfigError for a wrong expression or wrong names. GeometryError if the shape is empty, leaves the
   /// container or has a boundary that touches itself. Also if a part reaches over a periodic side by more than one
-  /// period, or was made in a frame with another lattice or place than `frame`; or if a curve leaves the shape, or the
-  /// container of a shape with curves is periodic
+  /// period, or was made in a frame with another lattice or place than `frame`. Also if a curve leaves the shape, or if
+  /// the container of a shape with curves is periodic
   RegionShape(std::vector<Part> parts, std::string_view region, const geometry::Frame& frame,
               const CurveParts& curves = {});
 

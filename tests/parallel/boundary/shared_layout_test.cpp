@@ -30,8 +30,9 @@ private:
 BoundarySites lay_together(const comm::Communicator& comm, const geometry::Boundary& boundary,
                            const sizing::SizeField& size, const FeatureRule& rule) {
   return make_boundary_sites(comm, [&] {
-    return std::make_unique<BoundaryRefiner>(boundary, BoundarySizes(size, size), testing::unit_lattice(), 30,
-                                             std::span<const Vec2>{}, rule, std::numeric_limits<std::size_t>::max());
+    const auto curves = std::make_shared<const LaidCurves>(boundary, geometry::InnerCurves{});
+    return std::make_unique<BoundaryRefiner>(curves, BoundarySizes(size, size), testing::unit_lattice(),
+                                             LayoutRequest{30, {}, {}, rule, std::numeric_limits<std::size_t>::max()});
   });
 }
 
