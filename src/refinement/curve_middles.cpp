@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "refinement/curve_middles.hpp"
+
+#include "core/angle.hpp"
+#include "refinement/rules.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trime::refinement {
+
+using geometry::Piece;
+using geometry::Vec2;
+
+namespace {
+
+/// Returns the length from the start of a piece to a point on it.
+double length_along(const Piece& piece, Vec2 p) {
+  if (!piece.circular) {
+    const Vec2 d = piece.end - piece.start;
+    const double length = geometry::length(d);
+    return std::clamp(dot(p - piece.start, d) / length, 0.0, length);
+  }
+  const Vec2 from_center = p - piece.center;
+  const double whole = std::fabs(piece.sweep);
+  double turn = (angle_of(from_center.y, from_center.x) - piece.start_angle) * (piece.sweep > 0 ? 1 : -1);
+  turn -= 2 * pi * std::floor(turn / (2 * pi));
+  if (turn > whole) // at one of the ends, except for rounding
+    turn = turn - whole < 2 * pi - turn ? whole : 0;
+  return piece.radius * turn;
+}
+
+} // namespace
+
+CurveMiddles::CurveMiddles(const geometry::Boundary& boundary, double side)
+    : boundary_(boundary), tree_(boundary), tolerance_(RefinementRules::on_curve * side) {
+  first_.push_back(0);
+  for (std::size_t loop = 0; loop < boundary.loops.size(); ++loop) {
+    double length = 0;
+    for (const Piece& piece : boundary.loops[loop].pieces) {
+      pieces_.push_back(&piece);
+      loop_of_.push_back(loop);
+      start_.push_back(length);
+      length += piece.length();
+    }
+    first_.push_back(pieces_.size());
+    length_.push_back(length);
+  }
+}
+
+/// In a periodic container a loop is unrolled, so a piece may pass through an image of the point.
+void CurveMiddles::add_places(std::size_t number, Vec2 p, std::vector<Along>& places) const {
+  const geometry::Periods& periods = boundary_.periods;
+  const Piece& one = piece(number);
+  const Vec2 near = periods.nearest_image(p, one.start);
+  for (const int i : {-1, 0, 1})
+    for (const int j : {-1, 0, 1}) {
+      if ((i != 0 && periods.x == 0) || (j != 0 && periods.y == 0))
+        continue;
+      const Vec2 image{near.x + i * periods.x, near.y + j * periods.y};
+      if (one.distance(image) <= tolerance_)
+        places.push_back({loop_of_[number], start_[number] + length_along(one, image)});
+    }
+}
+
+std::vector<CurveMiddles::Along> CurveMiddles::places_of(Vec2 p) const {
+  std::vector<Along> places;
+  for (const std::size_t number : tree_.within(p, tolerance_))
+    add_places(number, p, places);
+  return places;
+}
+
+std::optional<Vec2> CurveMiddles::middle(Vec2 a, Vec2 b, int part) const {
+  const double chord = geometry::length(b - a);
+  const std::vector<Along> starts = places_of(a), ends = places_of(b);
+  double shortest = RefinementRules::longest_curve * chord;
+  std::optional<Along> place;
+  for (const Along& from : starts)
+    for (const Along& to : ends) {
+      if (from.loop != to.loop)
+        continue;
+      double way = to.length - from.length;
+      if (way < 0.5 * chord) // no way is shorter than the chord: it passes the start of the loop
+        way += length_[from.loop];
+      if (way < shortest && way >= 0.5 * chord) {
+        shortest = way;
+        place = {from.loop, from.length + 0.5 * way};
+      }
+    }
+  if (!place)
+    return std::nullopt;
+  const double whole = length_[place->loop];
+  const double along = place->length >= whole ? place->length - whole : place->length;
+  const auto begin = start_.begin() + static_cast<std::ptrdiff_t>(first_[place->loop]);
+  const auto end = start_.begin() + static_cast<std::ptrdiff_t>(first_[place->loop + 1]);
+  const auto number = static_cast<std::size_t>(std::upper_bound(begin, end, along) - start_.begin()) - 1;
+  if (piece(number).part != part)
+    return std::nullopt;
+  const Vec2 straight = 0.5 * (a + b);
+  const Vec2 found = boundary_.periods.nearest_image(piece(number).point(along - start_[number]), straight);
+  if (!(geometry::length(found - straight) <= RefinementRules::farthest * chord))
+    return std::nullopt;
+  return found;
+}
+
+} // namespace trime::refinement
