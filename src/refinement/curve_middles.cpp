@@ -49,7 +49,7 @@ CurveMiddles::CurveMiddles(const geometry::Boundary& boundary, double side)
 }
 
 /// In a periodic container a loop is unrolled, so a piece may pass through an image of the point.
-void CurveMiddles::add_places(std::size_t number, Vec2 p, std::vector<Along>& places) const {
+void CurveMiddles::add_places(std::size_t number, Vec2 p, double tolerance, std::vector<Along>& places) const {
   const geometry::Periods& periods = boundary_.periods;
   const Piece& one = piece(number);
   const Vec2 near = periods.nearest_image(p, one.start);
@@ -58,47 +58,65 @@ void CurveMiddles::add_places(std::size_t number, Vec2 p, std::vector<Along>& pl
       if ((i != 0 && periods.x == 0) || (j != 0 && periods.y == 0))
         continue;
       const Vec2 image{near.x + i * periods.x, near.y + j * periods.y};
-      if (one.distance(image) <= tolerance_)
-        places.push_back({loop_of_[number], start_[number] + length_along(one, image)});
+      if (one.distance(image) > tolerance)
+        continue;
+      const double along = length_along(one, image);
+      places.push_back({loop_of_[number], start_[number] + along, image - one.point(along)});
     }
 }
 
-std::vector<CurveMiddles::Along> CurveMiddles::places_of(Vec2 p) const {
+/// Returns the nearest place, and others that are as near: of two pieces that meet, or where another loop is near.
+std::vector<CurveMiddles::Along> CurveMiddles::places_of(Vec2 p, double tolerance) const {
   std::vector<Along> places;
-  for (const std::size_t number : tree_.within(p, tolerance_))
-    add_places(number, p, places);
+  for (const std::size_t number : tree_.within(p, tolerance))
+    add_places(number, p, tolerance, places);
+  double least = tolerance;
+  for (const Along& place : places)
+    least = std::min(least, geometry::length(place.away));
+  std::erase_if(places, [&](const Along& place) { return geometry::length(place.away) > least + tolerance_; });
   return places;
 }
 
-std::optional<Vec2> CurveMiddles::middle(Vec2 a, Vec2 b, int part) const {
+/// Returns the shortest way forward.
+std::optional<CurveMiddles::Way> CurveMiddles::way_between(Vec2 a, Vec2 b) const {
   const double chord = geometry::length(b - a);
-  const std::vector<Along> starts = places_of(a), ends = places_of(b);
+  const double tolerance = std::max(tolerance_, RefinementRules::near_curve * chord);
+  const std::vector<Along> starts = places_of(a, tolerance), ends = places_of(b, tolerance);
   double shortest = RefinementRules::longest_curve * chord;
-  std::optional<Along> place;
+  std::optional<Way> best;
   for (const Along& from : starts)
     for (const Along& to : ends) {
       if (from.loop != to.loop)
         continue;
       double way = to.length - from.length;
-      if (way < 0.5 * chord) // no way is shorter than the chord: it passes the start of the loop
+      if (way < 0.5 * chord) // no way is much shorter than the chord: it passes the start of the loop
         way += length_[from.loop];
       if (way < shortest && way >= 0.5 * chord) {
         shortest = way;
-        place = {from.loop, from.length + 0.5 * way};
+        best = Way{from, way, 0.5 * (from.away + to.away)};
       }
     }
-  if (!place)
+  return best;
+}
+
+std::optional<Vec2> CurveMiddles::middle(Vec2 a, Vec2 b, int part) const {
+  const std::optional<Way> way = way_between(a, b);
+  if (!way)
     return std::nullopt;
-  const double whole = length_[place->loop];
-  const double along = place->length >= whole ? place->length - whole : place->length;
-  const auto begin = start_.begin() + static_cast<std::ptrdiff_t>(first_[place->loop]);
-  const auto end = start_.begin() + static_cast<std::ptrdiff_t>(first_[place->loop + 1]);
+  const std::size_t loop = way->from.loop;
+  const double whole = length_[loop];
+  double along = way->from.length + 0.5 * way->length;
+  if (along >= whole)
+    along -= whole;
+  const auto begin = start_.begin() + static_cast<std::ptrdiff_t>(first_[loop]);
+  const auto end = start_.begin() + static_cast<std::ptrdiff_t>(first_[loop + 1]);
   const auto number = static_cast<std::size_t>(std::upper_bound(begin, end, along) - start_.begin()) - 1;
   if (piece(number).part != part)
     return std::nullopt;
   const Vec2 straight = 0.5 * (a + b);
-  const Vec2 found = boundary_.periods.nearest_image(piece(number).point(along - start_[number]), straight);
-  if (!(geometry::length(found - straight) <= RefinementRules::farthest * chord))
+  const Vec2 on_curve = boundary_.periods.nearest_image(piece(number).point(along - start_[number]), straight);
+  const Vec2 found = geometry::length(way->away) > tolerance_ ? on_curve + way->away : on_curve;
+  if (!(geometry::length(found - straight) <= RefinementRules::farthest * geometry::length(b - a)))
     return std::nullopt;
   return found;
 }

@@ -20,7 +20,8 @@ public:
 
   /// @brief Returns the point at half the length of the curve from `a` to `b`, or nothing: if an end does not lie on
   /// the boundary, if the curve between them is much longer than the edge or strays far from it, or if its middle
-  /// belongs to another part of the shape. The result lies near the middle of a and b, and is not rounded.
+  /// belongs to another part of the shape. If the ends lie near the curve, as they do where the boundary was
+  /// simplified a little, so does the result. It lies near the middle of a and b, and is not rounded.
   /// @param b the image of the second end next to `a`; the interior lies on the left of a -> b
   /// @param part of the boundary edge, as an index into Boundary::part_names
   /// Cost: O(log(pieces)). Thread-safe.
@@ -30,10 +31,18 @@ private:
   /// A place on the boundary.
   struct Along {
     std::size_t loop;
-    double length; ///< from the start of the loop
+    double length;       ///< from the start of the loop
+    geometry::Vec2 away; ///< from there to the point
   };
-  std::vector<Along> places_of(geometry::Vec2 p) const;
-  void add_places(std::size_t piece, geometry::Vec2 p, std::vector<Along>& places) const;
+  /// The curve between two points.
+  struct Way {
+    Along from;
+    double length;
+    geometry::Vec2 away; ///< mean of both ends
+  };
+  std::vector<Along> places_of(geometry::Vec2 p, double tolerance) const;
+  void add_places(std::size_t piece, geometry::Vec2 p, double tolerance, std::vector<Along>& places) const;
+  std::optional<Way> way_between(geometry::Vec2 a, geometry::Vec2 b) const;
   const geometry::Piece& piece(std::size_t number) const { return *pieces_[number]; }
 
   const geometry::Boundary& boundary_;
