@@ -78,7 +78,7 @@ void take_promises(const Metadata& metadata, refinement::Surroundings& surroundi
 }
 
 void warn(const StoredShape& shape, const refinement::BoundaryMiddles& middles, const std::string& from, Log& log) {
-  const std::int64_t all = middles.on_curve + middles.straight + middles.refused;
+  const std::int64_t all = middles.on_curve + middles.near_curve + middles.straight + middles.refused;
   if (all == 0)
     return;
   if (!shape.input)
@@ -91,7 +91,7 @@ void warn(const StoredShape& shape, const refinement::BoundaryMiddles& middles, 
                 middles.straight, all);
   if (middles.refused > 0)
     log.warning("{} of {} new boundary points lie in the middles of boundary edges, because on the curve of the shape "
-                "they would make bad triangles",
+                "they would make bad triangles or crossing edges",
                 middles.refused, all);
 }
 

@@ -73,6 +73,7 @@ Attributes refinement_attributes(const Metadata& metadata, const refinement::Ref
           {"refined_from", io::shortened(line.files[0], 1000)},
           {"refined_from_hash", value_or(metadata, "mesh_hash_hex", std::string())},
           sum("middles_on_curve", refined.middles.on_curve),
+          sum("middles_near_curve", refined.middles.near_curve),
           sum("middles_straight", refined.middles.straight),
           sum("middles_refused", refined.middles.refused)};
 }

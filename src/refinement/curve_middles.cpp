@@ -99,7 +99,7 @@ std::optional<CurveMiddles::Way> CurveMiddles::way_between(Vec2 a, Vec2 b) const
   return best;
 }
 
-std::optional<Vec2> CurveMiddles::middle(Vec2 a, Vec2 b, int part) const {
+std::optional<CurveMiddle> CurveMiddles::middle(Vec2 a, Vec2 b, int part) const {
   const std::optional<Way> way = way_between(a, b);
   if (!way)
     return std::nullopt;
@@ -115,10 +115,11 @@ std::optional<Vec2> CurveMiddles::middle(Vec2 a, Vec2 b, int part) const {
     return std::nullopt;
   const Vec2 straight = 0.5 * (a + b);
   const Vec2 on_curve = boundary_.periods.nearest_image(piece(number).point(along - start_[number]), straight);
-  const Vec2 found = geometry::length(way->away) > tolerance_ ? on_curve + way->away : on_curve;
+  const bool is_on_curve = geometry::length(way->away) <= tolerance_;
+  const Vec2 found = is_on_curve ? on_curve : on_curve + way->away;
   if (!(geometry::length(found - straight) <= RefinementRules::farthest * geometry::length(b - a)))
     return std::nullopt;
-  return found;
+  return CurveMiddle{found, is_on_curve};
 }
 
 } // namespace trime::refinement

@@ -12,6 +12,12 @@
 
 namespace trime::refinement {
 
+/// A point in the middle of a curve.
+struct CurveMiddle {
+  geometry::Vec2 place;
+  bool is_on_curve; ///< whether it lies on the curve, and not only near it
+};
+
 /// The boundary of a shape, prepared for the search. Immutable; the same on every rank.
 class CurveMiddles {
 public:
@@ -25,7 +31,7 @@ public:
   /// @param b the image of the second end next to `a`; the interior lies on the left of a -> b
   /// @param part of the boundary edge, as an index into Boundary::part_names
   /// Cost: O(log(pieces)). Thread-safe.
-  std::optional<geometry::Vec2> middle(geometry::Vec2 a, geometry::Vec2 b, int part) const;
+  std::optional<CurveMiddle> middle(geometry::Vec2 a, geometry::Vec2 b, int part) const;
 
 private:
   /// A place on the boundary.

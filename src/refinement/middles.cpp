@@ -5,6 +5,7 @@
 #include "core/thread_loop.hpp"
 #include "geometry/predicates.hpp"
 #include "refinement/curve_middles.hpp"
+#include "refinement/facet_crossings.hpp"
 #include "refinement/rules.hpp"
 #include "trime/mesh/quality.hpp"
 
@@ -33,6 +34,8 @@ Middles::Middles(const comm::Communicator& comm, const geometry::Frame& frame, c
   for (std::vector<Ends> failed;;) {
     failed = comm::gather_everywhere(comm, failures());
     if (failed.empty())
+      failed = comm::gather_everywhere(comm, crossings());
+    if (failed.empty())
       return;
     for (const Ends& ends : failed)
       straighten(ends);
@@ -56,9 +59,10 @@ void Middles::place_on_curves(const geometry::Boundary& curves) {
     const Vec2 a = mesh_.points[at(mesh_.facets[k][0])];
     const Vec2 b = periods.nearest_image(mesh_.points[at(mesh_.facets[k][1])], a);
     const LocalIndex edge = edges_.find(mesh_.facets[k][0], mesh_.facets[k][1]);
-    if (const std::optional<Vec2> found = middles.middle(a, b, mesh_.facet_parts[k])) {
-      places_[at(edge)] = periods.any() ? periods.wrap(frame_.lattice().snap(*found)) : frame_.snap(*found);
-      states_[at(edge)] = State::on_curve;
+    if (const std::optional<CurveMiddle> found = middles.middle(a, b, mesh_.facet_parts[k])) {
+      const Vec2 p = found->place;
+      places_[at(edge)] = periods.any() ? periods.wrap(frame_.lattice().snap(p)) : frame_.snap(p);
+      states_[at(edge)] = found->is_on_curve ? State::on_curve : State::near_curve;
     }
   });
 }
@@ -80,8 +84,7 @@ Children Middles::children(LocalIndex triangle) const {
 }
 
 bool Middles::has_curve(LocalIndex triangle) const {
-  return std::ranges::any_of(edges_.of_triangle(triangle),
-                             [&](LocalIndex edge) { return states_[at(edge)] == State::on_curve; });
+  return std::ranges::any_of(edges_.of_triangle(triangle), [&](LocalIndex edge) { return is_curved(edge); });
 }
 
 /// Are the triangles as good as they must be, and the diametral circles of the new boundary edges empty?
@@ -94,7 +97,7 @@ bool Middles::is_good(LocalIndex triangle) const {
     return false;
   for (int j = 0; j < 3; ++j) {
     const LocalIndex edge = edges_.of_triangle(triangle)[static_cast<std::size_t>(j)];
-    if (states_[at(edge)] != State::on_curve ||
+    if (!is_curved(edge) ||
         geometry::diametral_side(children.at(j), children.at((j + 1) % 3), children.at((j + 2) % 3)) < 0)
       continue;
     if (geometry::diametral_side(children.at(j), children.at(3 + j), children.at(children.across(j, 0))) < 0 ||
@@ -120,8 +123,8 @@ bool Middles::is_delaunay(LocalIndex edge) const {
 
 void Middles::list_curved(LocalIndex triangle, std::vector<Ends>& list) const {
   for (const LocalIndex edge : edges_.of_triangle(triangle))
-    if (states_[at(edge)] == State::on_curve)
-      list.push_back({mesh_.global_id(edges_.lower(edge)), mesh_.global_id(edges_.upper(edge))});
+    if (is_curved(edge))
+      list.push_back(ends(edge));
 }
 
 /// Returns the edges of this rank's triangles whose vertices must not lie on the curve.
@@ -145,6 +148,31 @@ std::vector<Middles::Ends> Middles::failures() const {
   return failed;
 }
 
+/// Returns the edges of this rank with halves that cross other boundary edges. Every rank gets all halves: as a run
+/// holds the sites of the boundary.
+std::vector<Middles::Ends> Middles::crossings() const {
+  std::vector<LocalIndex> curved; // by segment that is tried
+  std::vector<geometry::Segment> mine, tried;
+  for (const std::array<LocalIndex, 2>& facet : mesh_.facets) {
+    const LocalIndex edge = edges_.find(facet[0], facet[1]);
+    if (edge >= edges_.owned())
+      continue;
+    const Vec2 a = mesh_.points[at(facet[0])], m = place(edge), b = mesh_.points[at(facet[1])];
+    for (const geometry::Segment& half :
+         {geometry::Segment{a, frame_.periods().nearest_image(m, a)}, {m, frame_.periods().nearest_image(b, m)}}) {
+      mine.push_back(half);
+      if (!is_curved(edge))
+        continue;
+      tried.push_back(half);
+      curved.push_back(edge);
+    }
+  }
+  std::vector<Ends> found;
+  for (const std::size_t k : crossing(comm::gather_everywhere(comm_, std::move(mine)), tried, frame_.periods()))
+    found.push_back(ends(curved[k]));
+  return found;
+}
+
 void Middles::straighten(const Ends& ends) {
   const auto local = [&](GlobalId point) -> LocalIndex {
     if (point >= mesh_.first_point && point < mesh_.first_point + mesh_.owned_points)
@@ -163,12 +191,12 @@ void Middles::straighten(const Ends& ends) {
 }
 
 BoundaryMiddles Middles::counts() const {
-  std::array<std::int64_t, 3> counts{};
+  std::array<std::int64_t, 4> counts{};
   for (LocalIndex edge = 0; edge < edges_.owned(); ++edge)
     if (const State state = states_[at(edge)]; state != State::inside)
       ++counts[static_cast<std::size_t>(state) - 1];
   comm_.sum(counts);
-  return {counts[1], counts[0], counts[2]};
+  return {counts[1], counts[2], counts[0], counts[3]};
 }
 
 } // namespace trime::refinement

@@ -37,7 +37,7 @@ public:
 
 private:
   using Ends = std::array<GlobalId, 2>;
-  enum class State : char { inside, straight, on_curve, refused };
+  enum class State : char { inside, straight, on_curve, near_curve, refused };
 
   std::array<geometry::Vec2, 3> corners(LocalIndex triangle) const;
   geometry::Vec2 straight_place(LocalIndex edge) const;
@@ -46,7 +46,14 @@ private:
   bool is_good(LocalIndex triangle) const;
   bool is_delaunay(LocalIndex edge) const;
   void list_curved(LocalIndex triangle, std::vector<Ends>& list) const;
+  bool is_curved(LocalIndex edge) const {
+    return states_[at(edge)] == State::on_curve || states_[at(edge)] == State::near_curve;
+  }
+  Ends ends(LocalIndex edge) const {
+    return {mesh_.global_id(edges_.lower(edge)), mesh_.global_id(edges_.upper(edge))};
+  }
   std::vector<Ends> failures() const;
+  std::vector<Ends> crossings() const;
   void straighten(const Ends& ends);
 
   const comm::Communicator& comm_;

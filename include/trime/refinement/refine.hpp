@@ -28,9 +28,10 @@ struct Surroundings {
 
 /// Numbers of the new vertices on the boundary.
 struct BoundaryMiddles {
-  std::int64_t on_curve = 0; ///< at half the length of the curve between the ends of the edge
-  std::int64_t straight = 0; ///< in the middle of the edge, because no curve between its ends is known
-  std::int64_t refused = 0;  ///< in the middle of the edge, because the triangles would be worse on the curve
+  std::int64_t on_curve = 0;   ///< at half the length of the curve between the ends of the edge
+  std::int64_t near_curve = 0; ///< as far from there as the ends of the edge are from the curve on average
+  std::int64_t straight = 0;   ///< in the middle of the edge, because no curve between its ends is known
+  std::int64_t refused = 0;    ///< in the middle of the edge, because the triangles would be worse on the curve
 };
 
 /// The refined mesh.
