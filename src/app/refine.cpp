@@ -12,6 +12,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <limits>
 
@@ -19,6 +22,8 @@ namespace trime::app {
 namespace {
 
 using io::Metadata;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Directory and NAME of a mesh file. @throws ConfigError on all ranks unless the path ends with .h5
 io::MeshFileOptions output_of(const std::string& path, bool overwrite) {
@@ -46,21 +51,36 @@ void refuse_same_file(const std::string& from, const std::string& to, const comm
   });
 }
 
-/// The box around all points; in a periodic container one that is as large as the periods. Collective.
+/// Returns the largest power of two of which a coordinate is a multiple; infinity for 0.
+double step_of(double coordinate) {
+  if (coordinate == 0)
+    return infinity;
+  int exponent = 0;
+  const auto digits = static_cast<std::uint64_t>(std::ldexp(std::fabs(std::frexp(coordinate, &exponent)), 53));
+  return std::ldexp(1.0, exponent - 53 + std::countr_zero(digits));
+}
+
+/// @brief Returns a container of all points, for a mesh whose container is not known: the box around them, in a
+/// periodic container one with its periods. It is made larger until its lattice is as coarse as that of the points.
+/// Collective.
 geometry::Frame frame_around(const mesh::DistributedMesh& mesh, const Metadata& metadata,
                              const comm::Communicator& comm) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  std::array<double, 4> least{infinity, infinity, infinity, infinity}; // and the largest, with a minus sign
+  constexpr double coarser = 64; // at most: of few points, all may lie on a lattice that is too coarse for new ones
+  std::array<double, 5> least{infinity, infinity, infinity, infinity, infinity};
   for (const geometry::Vec2 p : mesh.points)
-    least = {std::min(least[0], p.x), std::min(least[1], p.y), std::min(least[2], -p.x), std::min(least[3], -p.y)};
+    least = {std::min(least[0], p.x), std::min(least[1], p.y), std::min(least[2], -p.x), std::min(least[3], -p.y),
+             std::min({least[4], step_of(p.x), step_of(p.y)})};
   comm.min(least);
   geometry::Box box{{least[0], least[1]}, {-least[2], -least[3]}};
   const double period_x = io::attribute_of<double>(metadata, "period_x");
   const double period_y = io::attribute_of<double>(metadata, "period_y");
-  if (period_x > 0)
-    box.max.x = box.min.x + period_x;
-  if (period_y > 0)
-    box.max.y = box.min.y + period_y;
+  const double step = std::min(least[4], coarser * geometry::Lattice(box).step());
+  const double side = 0.75 * 0x1p44 * step; // of a container with such a lattice
+  const auto grow = [side](double low, double& high, double period) {
+    high = period > 0 ? low + period : std::fmax(high, low + side);
+  };
+  grow(box.min.x, box.max.x, period_x);
+  grow(box.min.y, box.max.y, period_y);
   return geometry::Frame(box, period_x > 0, period_y > 0);
 }
 
