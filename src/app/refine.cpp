@@ -51,7 +51,7 @@ void refuse_same_file(const std::string& from, const std::string& to, const comm
   });
 }
 
-/// Returns the largest power of two of which a coordinate is a multiple; infinity for 0.
+/// Returns the largest power of two that divides a coordinate; infinity for 0.
 double step_of(double coordinate) {
   if (coordinate == 0)
     return infinity;

@@ -18,7 +18,7 @@ using io::Metadata;
 using io::MetadataGroup;
 using record::Attributes;
 
-/// Returns the value, or `otherwise` if there is none.
+/// Returns the value, or `otherwise` if there is no such value.
 template <class T>
 T value_or(const Metadata& metadata, const std::string& name, T otherwise) {
   for (const Attribute& attribute : metadata.attributes)

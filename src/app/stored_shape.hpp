@@ -20,7 +20,7 @@ struct StoredShape {
 
 /// @brief Makes the shape from the config in the metadata of a mesh file, and the contour files that this config names.
 /// There is no shape if the file has no config, if a contour file cannot be read, or if the shape is no longer the one
-/// that was meshed: then its area, the names of its parts or its periods differ.
+/// that was meshed. The function compares the area, the names of the parts and the periods.
 /// @param metadata with the group `tags` @param path of the mesh file, for messages
 /// @note Collective. All ranks get the same.
 StoredShape stored_shape(const io::Metadata& metadata, const std::string& path, const comm::Communicator& comm);

@@ -2,7 +2,6 @@
 #include "refinement/curve_middles.hpp"
 
 #include "core/angle.hpp"
-#include "refinement/rules.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +12,18 @@ using geometry::Piece;
 using geometry::Vec2;
 
 namespace {
+
+// [side of the container] Vertices that lie so far from a curve still lie on it, as in the certificate of a run.
+constexpr double on_curve = 1e-9;
+// [length of the edge] Ends of edges that lie so far from a curve still follow it: where the boundary was simplified,
+// vertices lie near the curve. Traced curves were moved by up to 1e-4 h, ragged coasts by up to 0.5 h.
+constexpr double near_curve = 0.02;
+// [length of the edge] A curve between the ends of an edge that is longer does not belong to the edge: it goes around a
+// part of the shape that the mesh leaves out. An arc of 60 degrees is 1.05 times as long. Not measured.
+constexpr double longest_curve = 3;
+// [length of the edge] A vertex on the curve lies at most so far from the middle of the edge: in the diametral circle
+// of the edge, in which there are no other vertices.
+constexpr double farthest = 0.5;
 
 /// Returns the length from the start of a piece to a point on it.
 double length_along(const Piece& piece, Vec2 p) {
@@ -33,7 +44,7 @@ double length_along(const Piece& piece, Vec2 p) {
 } // namespace
 
 CurveMiddles::CurveMiddles(const geometry::Boundary& boundary, double side)
-    : boundary_(boundary), tree_(boundary), tolerance_(RefinementRules::on_curve * side) {
+    : boundary_(boundary), tree_(boundary), tolerance_(on_curve * side) {
   first_.push_back(0);
   for (std::size_t loop = 0; loop < boundary.loops.size(); ++loop) {
     double length = 0;
@@ -80,9 +91,9 @@ std::vector<CurveMiddles::Along> CurveMiddles::places_of(Vec2 p, double toleranc
 /// Returns the shortest way forward.
 std::optional<CurveMiddles::Way> CurveMiddles::way_between(Vec2 a, Vec2 b) const {
   const double chord = geometry::length(b - a);
-  const double tolerance = std::max(tolerance_, RefinementRules::near_curve * chord);
+  const double tolerance = std::max(tolerance_, near_curve * chord);
   const std::vector<Along> starts = places_of(a, tolerance), ends = places_of(b, tolerance);
-  double shortest = RefinementRules::longest_curve * chord;
+  double shortest = longest_curve * chord;
   std::optional<Way> best;
   for (const Along& from : starts)
     for (const Along& to : ends) {
@@ -114,10 +125,10 @@ std::optional<CurveMiddle> CurveMiddles::middle(Vec2 a, Vec2 b, int part) const 
   if (piece(number).part != part)
     return std::nullopt;
   const Vec2 straight = 0.5 * (a + b);
-  const Vec2 on_curve = boundary_.periods.nearest_image(piece(number).point(along - start_[number]), straight);
+  const Vec2 place = boundary_.periods.nearest_image(piece(number).point(along - start_[number]), straight);
   const bool is_on_curve = geometry::length(way->away) <= tolerance_;
-  const Vec2 found = is_on_curve ? on_curve : on_curve + way->away;
-  if (!(geometry::length(found - straight) <= RefinementRules::farthest * geometry::length(b - a)))
+  const Vec2 found = is_on_curve ? place : place + way->away;
+  if (!(geometry::length(found - straight) <= farthest * geometry::length(b - a)))
     return std::nullopt;
   return CurveMiddle{found, is_on_curve};
 }

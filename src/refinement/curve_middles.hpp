@@ -24,10 +24,11 @@ public:
   /// @param side longer side of the container @pre the boundary outlives this object
   CurveMiddles(const geometry::Boundary& boundary, double side);
 
-  /// @brief Returns the point at half the length of the curve from `a` to `b`, or nothing: if an end does not lie on
-  /// the boundary, if the curve between them is much longer than the edge or strays far from it, or if its middle
-  /// belongs to another part of the shape. If the ends lie near the curve, as they do where the boundary was
-  /// simplified a little, so does the result. It lies near the middle of a and b, and is not rounded.
+  /// @brief Returns the point at half the length of the curve from `a` to `b`, or nothing. There is
+  /// no such point if an end does not lie on the boundary, or if the curve between them is much longer than the edge or
+  /// strays far from it. There is none either if the middle belongs to another part of the shape. If the ends lie near
+  /// the curve, as they do where the boundary was simplified a little, so does the result. It lies near the middle of a
+  /// and b, and is not rounded.
   /// @param b the image of the second end next to `a`; the interior lies on the left of a -> b
   /// @param part of the boundary edge, as an index into Boundary::part_names
   /// Cost: O(log(pieces)). Thread-safe.
@@ -54,7 +55,7 @@ private:
   const geometry::Boundary& boundary_;
   geometry::PieceTree tree_;
   double tolerance_;
-  std::vector<const geometry::Piece*> pieces_; // of all loops, in their order
+  std::vector<const geometry::Piece*> pieces_; // the pieces of all loops, in their order
   std::vector<std::size_t> loop_of_;           // by piece
   std::vector<double> start_;                  // by piece: length of its loop before it
   std::vector<std::size_t> first_;             // by loop: its first piece; the last entry is the end

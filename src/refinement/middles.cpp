@@ -6,7 +6,6 @@
 #include "geometry/predicates.hpp"
 #include "refinement/curve_middles.hpp"
 #include "refinement/facet_crossings.hpp"
-#include "refinement/rules.hpp"
 #include "trime/mesh/quality.hpp"
 
 #include <algorithm>
@@ -15,6 +14,14 @@
 namespace trime::refinement {
 
 using geometry::Vec2;
+
+namespace {
+
+// [R/2r] Triangles with a larger alpha are bad, unless the one that was divided has a larger one: such triangles are
+// listed in the report of a run.
+constexpr double bad_alpha = 2;
+
+} // namespace
 
 Middles::Middles(const comm::Communicator& comm, const geometry::Frame& frame, const handover::LocalMesh& mesh,
                  const EdgeTable& edges, const geometry::Boundary* curves)
@@ -93,7 +100,7 @@ bool Middles::is_good(LocalIndex triangle) const {
   if (!children.is_sound(frame_.lattice()))
     return false;
   const std::array<Vec2, 3> p = corners(triangle);
-  if (children.alpha() > std::max(RefinementRules::bad_alpha, mesh::aspect_ratio(p[0], p[1], p[2])))
+  if (children.alpha() > std::max(bad_alpha, mesh::aspect_ratio(p[0], p[1], p[2])))
     return false;
   for (int j = 0; j < 3; ++j) {
     const LocalIndex edge = edges_.of_triangle(triangle)[static_cast<std::size_t>(j)];

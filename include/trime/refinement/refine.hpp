@@ -40,14 +40,14 @@ struct Refined {
   mesh::QualitySummary quality;
   std::vector<polygon::LoopSummary> loops; ///< the loops of its boundary, ordered by tag; `parts` are left empty
   BoundaryMiddles middles;
-  mesh::Checks checks; ///< of the arrays: triangles, edges, points, loops and area
+  mesh::Checks checks; ///< checks of the arrays: triangles, edges, points, loops and area
 };
 
 /// @brief Divides each triangle into four, and each boundary edge into two. The vertices of the mesh stay, bit for bit.
 /// The vertex on an inner edge lies in its middle, rounded to the lattice. The vertex on a boundary edge lies on the
-/// curve of the shape, at half its length between the ends of the edge, unless a triangle would become bad or an edge
-/// would not be Delaunay; then it lies in the middle of the edge. Target edge lengths are halved. Regions, tags and
-/// parts are those of the divided triangles and edges.
+/// curve of the shape, at half its length between the ends of the edge, if that is possible. It lies in the middle of
+/// the edge if a triangle would become bad there, or an edge would not be Delaunay. Target edge lengths are halved.
+/// Regions, tags and parts are those of the divided triangles and edges.
 ///
 /// The new points are numbered in the order of the old ones; each old point is followed by the new points on the edges
 /// from it to points with higher numbers, in the order of these. The result does not depend on the number of ranks.
