@@ -38,6 +38,7 @@ ARROWS = {
     "certificate": ["comm", "geometry", "mesh", "sizing", "decomposition", "polygon", "sites"],
     "meshing": ["comm", "geometry", "mesh", "shape", "sizing", "delaunay", "decomposition", "polygon", "boundary",
                 "sites", "fitting", "start", "sweep", "cleanup", "extraction", "certificate"],
+    "refinement": ["comm", "geometry", "mesh", "polygon", "handover", "extraction", "certificate"],
     "io": ["comm", "mesh"],
     "checkpoint": ["comm", "sweep", "meshing", "io"],
     "record": ["comm", "geometry", "mesh", "shape", "polygon", "boundary", "sweep", "meshing", "io"],
@@ -46,7 +47,7 @@ ARROWS = {
     "facade": ["comm", "geometry", "contours", "tracing", "shape", "sizing", "boundary", "sweep", "mesh", "meshing",
                "io", "record", "formats", "handover"],
     "app": ["comm", "geometry", "contours", "tracing", "shape", "projection", "sizing", "polygon", "boundary",
-            "sites", "fitting", "meshing", "io", "checkpoint", "record", "formats"],
+            "sites", "fitting", "meshing", "refinement", "io", "checkpoint", "record", "formats"],
 }
 # Foreign headers that only some modules may see, as (pattern, name, modules).
 UMBRELLA = "facade"  # its headers include include/trime/trime.hpp, which lies in no folder

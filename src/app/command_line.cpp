@@ -33,7 +33,7 @@ void declare(CLI::App& app, CommandLine& line, Flags& flags) {
                "like --validate, and also report how the work is divided, what will be simplified, and how many points "
                "would keep every feature of the shape");
   app.add_flag("--print-config", flags.print_config, "print the config with all defaults, as a complete file");
-  app.add_flag("--overwrite", flags.overwrite, "with convert: replace the file OUT if it exists");
+  app.add_flag("--overwrite", flags.overwrite, "with convert and refine: replace the file OUT if it exists");
   app.add_flag("--degrees", flags.degrees, "with convert: write longitude and latitude into .14 and .2dm");
   app.add_option("--report", line.report, "write the report of the run to this file, as JSON");
   app.add_option("--record", line.report)->group(""); // its name in earlier versions; not in the help
@@ -55,33 +55,41 @@ void declare(CLI::App& app, CommandLine& line, Flags& flags) {
 
 /// The words that stand in the place of a config and have files behind them. A config of such a name is ./convert.
 Action action_of(const CommandLine& line, const Flags& flags) {
-  return line.config == "convert" ? Action::convert
-         : line.config == "info"  ? Action::info
-         : flags.version          ? Action::version
-         : flags.help_config      ? Action::help_config
-         : flags.print_config     ? Action::print_config
-         : flags.validate         ? Action::validate
-         : flags.dry_run          ? Action::dry_run
-                                  : Action::mesh;
+  return line.config == "convert"  ? Action::convert
+         : line.config == "info"   ? Action::info
+         : line.config == "refine" ? Action::refine
+         : flags.version           ? Action::version
+         : flags.help_config       ? Action::help_config
+         : flags.print_config      ? Action::print_config
+         : flags.validate          ? Action::validate
+         : flags.dry_run           ? Action::dry_run
+                                   : Action::mesh;
 }
 
-/// The files of convert and info are what a run takes for overrides.
+/// The words behind the program name for which files follow.
+const char* usage_of(Action action) {
+  return action == Action::convert  ? "convert IN.h5 OUT.ENDING [--overwrite] [--degrees]"
+         : action == Action::refine ? "refine IN.h5 OUT.h5 [--overwrite]"
+                                    : "info FILE.h5";
+}
+
+/// The files of convert, info and refine are what a run takes for overrides.
 void take_files(CommandLine& line, const Flags& flags) {
-  const bool converts = line.action == Action::convert;
+  const bool converts = line.action == Action::convert, refines = line.action == Action::refine;
   line.overwrite = flags.overwrite;
-  if (flags.overwrite && !converts)
-    throw ConfigError("'--overwrite' belongs to 'trime_mpi convert'; for a run, set output.overwrite=true");
+  if (flags.overwrite && !converts && !refines)
+    throw ConfigError(
+        "'--overwrite' belongs to 'trime_mpi convert' and 'trime_mpi refine'; for a run, set output.overwrite=true");
   line.in_degrees = flags.degrees;
   if (flags.degrees && !converts)
     throw ConfigError("'--degrees' belongs to 'trime_mpi convert'; for a run, set output.coordinates=degrees");
-  if (!converts && line.action != Action::info)
+  if (!converts && !refines && line.action != Action::info)
     return;
   line.files = std::exchange(line.overrides, {});
-  if (line.files.size() != (converts ? 2U : 1U))
+  if (line.files.size() != (line.action == Action::info ? 1U : 2U))
     throw ConfigError(fmt::format("'trime_mpi {}' needs {}, found {} file{}; usage: trime_mpi {}", line.config,
-                                  converts ? "two files" : "one file", line.files.size(),
-                                  line.files.size() == 1 ? "" : "s",
-                                  converts ? "convert IN.h5 OUT.ENDING [--overwrite] [--degrees]" : "info FILE.h5"));
+                                  line.action == Action::info ? "one file" : "two files", line.files.size(),
+                                  line.files.size() == 1 ? "" : "s", usage_of(line.action)));
 }
 
 /// Returns the seconds of HH:MM:SS. @throws ConfigError
@@ -118,19 +126,23 @@ std::string endings() {
   return text;
 }
 
+std::string description() {
+  return "Distributed generator of large 2D triangle meshes.\n"
+         "[mpirun -np RANKS] trime_mpi CONFIG [section.key=value ...] [OPTIONS]\n"
+         "[mpirun -np RANKS] trime_mpi convert IN.h5 OUT.ENDING   a mesh in the format of another program:\n"
+         "                  " +
+         endings() +
+         ", see configs/formats.md\n"
+         "[mpirun -np RANKS] trime_mpi refine IN.h5 OUT.h5   the mesh with four triangles in place of each one\n"
+         "trime_mpi info FILE.h5   what is in a mesh file";
+}
+
 } // namespace
 
 CommandLine parse_command_line(int argc, const char* const* argv) {
   CommandLine line;
   Flags flags;
-  CLI::App app("Distributed generator of large 2D triangle meshes.\n"
-               "[mpirun -np RANKS] trime_mpi CONFIG [section.key=value ...] [OPTIONS]\n"
-               "[mpirun -np RANKS] trime_mpi convert IN.h5 OUT.ENDING   a mesh in the format of another program:\n"
-               "                  " +
-                   endings() +
-                   ", see configs/formats.md\n"
-                   "trime_mpi info FILE.h5   what is in a mesh file",
-               "trime_mpi");
+  CLI::App app(description(), "trime_mpi");
   declare(app, line, flags);
   for (int k = 0; k < argc; ++k)
     line.as_given += (k > 0 ? " " : "") + std::string(argv[k]);

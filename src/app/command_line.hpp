@@ -8,14 +8,14 @@
 namespace trime::app {
 
 /// The task that the command line gives to the program.
-enum class Action { mesh, validate, dry_run, print_config, help, help_config, version, convert, info };
+enum class Action { mesh, validate, dry_run, print_config, help, help_config, version, convert, info, refine };
 
 struct CommandLine {
   Action action = Action::mesh;
   std::string config;                 ///< path of the config; empty if the action needs no config
   std::vector<std::string> overrides; ///< section.key=value, including those that follow from options such as --points
-  std::vector<std::string> files;     ///< paths given to `convert` and `info`
-  bool overwrite = false;             ///< for `convert`: an existing file may be replaced
+  std::vector<std::string> files;     ///< paths given to `convert`, `info` and `refine`
+  bool overwrite = false;             ///< for `convert` and `refine`: an existing file may be replaced
   bool in_degrees = false;            ///< for `convert`: longitude and latitude in fort14 and 2dm
   std::string report;                 ///< path of the JSON file for the numbers of the run; empty: no such file
   std::string restart;   ///< path of the checkpoint from which the run continues, or `auto`; empty: the run starts from

@@ -8,6 +8,7 @@
 #include "app/machine.hpp"
 #include "app/option_table.hpp"
 #include "app/provenance.hpp"
+#include "app/refine.hpp"
 #include "app/run_report.hpp"
 #include "app/run_summary.hpp"
 #include "app/shape_builder.hpp"
@@ -363,6 +364,10 @@ ExitCode run_program(int argc, const char* const* argv, const comm::Communicator
     Log log(LogLevel::info, comm.is_root());
     convert(line, process.files, comm, log);
     return ExitCode::done;
+  }
+  if (line.action == Action::refine) {
+    Log log(LogLevel::info, comm.is_root());
+    return refine(line, process.files, comm, log);
   }
   const std::string config_text = read_shared(line.config, comm);
   RunOptions options = parse_config(config_text, line.config, line.overrides);

@@ -33,6 +33,12 @@ struct Tally {
     if (count++ == 0)
       place = where();
   }
+  /// Adds the failures of another tally.
+  void add(const Tally& other) {
+    if (count == 0)
+      place = other.place;
+    count += other.count;
+  }
 };
 
 /// Collects the checks in the order in which they were made.

@@ -180,6 +180,16 @@ private:
     return static_cast<std::int64_t>(file_.number("/trime_mpi", "corners_left_out").value_or(0));
   }
 
+  /// Vertices that `refine` has left off the curve, at most.
+  std::int64_t off_curve_by_refining() const {
+    double count = 0;
+    for (const char* name : {"middles_near_curve", "middles_straight", "middles_refused"})
+      count += file_.number("/trime_mpi", name).value_or(0);
+    return static_cast<std::int64_t>(count);
+  }
+  /// [h asked for] How far the curve is from the edges of the mesh that was refined.
+  double chord_of_refined() const { return chord * std::exp2(file_.number("/trime_mpi", "refinements").value_or(0)); }
+
   void check_corners() {
     if (const std::string reason = unknown_part(); !reason.empty()) {
       report_.skip("corners", reason);
@@ -213,6 +223,27 @@ private:
                   missing.count == 0 ? "" : "first that is not a vertex: " + missing.place);
   }
 
+  /// Numbers of facets that may have an end off the curve of their part.
+  struct Allowance {
+    std::int64_t across = 0;  ///< because they pass over places where parts meet
+    std::int64_t refined = 0; ///< because `refine` has left a vertex off the curve
+  };
+
+  /// Notes the ends of a facet off its part. @param allowance null if the loop was simplified
+  void check_facet(std::size_t k, const Part& part, double limit, Allowance* allowance, Tally& off) const {
+    const bool strays =
+        std::ranges::any_of(mesh_.facets[k], [&](std::int64_t id) { return distance_of(part, mesh_.at(id)) > limit; });
+    Tally found;
+    check_ends(k, part, limit, !allowance || (strays && allowance->across > 0), found);
+    if (allowance && found.count > 0 && allowance->refined > 0) {
+      --allowance->refined;
+      found = {};
+      check_ends(k, part, limit + chord_of_refined() * mesh_.asked_sizes[k], false, found);
+    } else if (allowance && strays)
+      --allowance->across;
+    off.add(found);
+  }
+
   void check_vertices() {
     std::vector<const Part*> named;
     for (const std::string& name : file_.names("/trime_mpi/tags/part_name"))
@@ -222,7 +253,8 @@ private:
     const double within = simplified_within();
     const std::string reason = unknown_part();
     Tally off, foreign;
-    std::int64_t judged = 0, across = left_out(); // facets that pass over places where parts meet
+    Allowance allowance{left_out(), 2 * off_curve_by_refining()};
+    std::int64_t judged = 0;
     for (std::size_t k = 0; k < mesh_.facets.size(); ++k) {
       const auto number = static_cast<std::size_t>(mesh_.facet_parts[k]);
       const Part* part = number < named.size() ? named[number] : nullptr;
@@ -235,9 +267,7 @@ private:
         continue;
       ++judged;
       const double limit = on_curve * shape_.side() + part->bend + (strict ? 0 : within * mesh_.asked_sizes[k]);
-      const bool strays = std::ranges::any_of(
-          mesh_.facets[k], [&](std::int64_t id) { return distance_of(*part, mesh_.at(id)) > limit; });
-      check_ends(k, *part, limit, !strict || (strays && across-- > 0), off);
+      check_facet(k, *part, limit, strict ? &allowance : nullptr, off);
     }
     report_.none("facet_parts", foreign, "facets of parts that the region of the config does not use");
     if (judged == 0 && !mesh_.facets.empty())

@@ -84,18 +84,34 @@ double inside_angle(const polygon::BoundarySites& boundary, LocalIndex k) {
 
 } // namespace
 
+void SharpCorners::add_if_sharp(const Corner& corner) {
+  if (!(corner.degrees < ExtractionRules::sharp_degrees))
+    return;
+  corners_.push_back(corner);
+  sharpest_ = std::fmin(sharpest_, corner.degrees);
+}
+
+void SharpCorners::sort() {
+  std::sort(corners_.begin(), corners_.end(),
+            [](const Corner& a, const Corner& b) { return lexicographically_less(a.place, b.place); });
+}
+
 SharpCorners::SharpCorners(const polygon::BoundarySites& given, const geometry::Periods& periods) : periods_(periods) {
   const polygon::BoundarySites sides = given.inner.empty() ? polygon::BoundarySites() : polygon::with_both_sides(given);
   const polygon::BoundarySites& boundary = given.inner.empty() ? given : sides;
   for (LocalIndex k = 0; k < std::ssize(boundary.sites); ++k)
-    if (boundary.sites[at(k)].corner)
-      if (const double degrees = inside_angle(boundary, k); degrees < ExtractionRules::sharp_degrees) {
-        const geometry::Segment out = boundary.chord(k), in = boundary.chord(boundary.sites[at(k)].previous);
-        corners_.push_back({periods.wrap(boundary.sites[at(k)].position), degrees, out.b - out.a, in.a - in.b});
-        sharpest_ = std::fmin(sharpest_, degrees);
-      }
-  std::sort(corners_.begin(), corners_.end(),
-            [](const Corner& a, const Corner& b) { return lexicographically_less(a.place, b.place); });
+    if (boundary.sites[at(k)].corner) {
+      const geometry::Segment out = boundary.chord(k), in = boundary.chord(boundary.sites[at(k)].previous);
+      add_if_sharp(
+          {periods.wrap(boundary.sites[at(k)].position), inside_angle(boundary, k), out.b - out.a, in.a - in.b});
+    }
+  sort();
+}
+
+SharpCorners::SharpCorners(std::span<const Corner> corners, const geometry::Periods& periods) : periods_(periods) {
+  for (const Corner& corner : corners)
+    add_if_sharp(corner);
+  sort();
 }
 
 namespace {
@@ -234,6 +250,11 @@ void QualityMeter::add_edge(Vec2 p, Vec2 q, double size_at_p) {
     measure_edges();
 }
 
+void QualityMeter::add_edge(Vec2 p, Vec2 q, double size_at_p, double size_at_middle) {
+  middle_size_[edges_] = size_at_middle;
+  add_edge(p, q, size_at_p);
+}
+
 void QualityMeter::finish() {
   measure_triangles();
   measure_edges();
@@ -278,14 +299,21 @@ void QualityMeter::list_if_bad(double alpha, std::size_t k) {
                  mesh::max_angle_degrees(p_[k], q_[k], r_[k]), obtuse});
 }
 
+/// Sets h at the middles of the edges of this block.
+void QualityMeter::find_sizes(std::span<double> sizes) const {
+  if (!size_)
+    std::copy_n(middle_size_.begin(), sizes.size(), sizes.begin());
+  else if (size_->is_uniform())
+    std::ranges::fill(sizes, sizing::checked_size(*size_, {}));
+  else
+    for (std::size_t k = 0; k < sizes.size(); ++k)
+      sizes[k] = sizing::checked_size(*size_, periods_.wrap(0.5 * (from_[k] + to_[k])));
+}
+
 void QualityMeter::measure_edges() {
   const std::size_t n = edges_;
   Values size;
-  if (size_.is_uniform())
-    size.fill(sizing::checked_size(size_, {}));
-  else
-    for (std::size_t k = 0; k < n; ++k)
-      size[k] = sizing::checked_size(size_, periods_.wrap(0.5 * (from_[k] + to_[k])));
+  find_sizes(std::span(size).first(n));
   Values length;
   for (std::size_t k = 0; k < n; ++k)
     length[k] = geometry::length(to_[k] - from_[k]);

@@ -22,20 +22,25 @@ namespace trime::extraction {
 /// All corners of the boundary with an interior angle below 60 degrees. The list is the same on every rank. Immutable.
 class SharpCorners {
 public:
-  SharpCorners(const polygon::BoundarySites& given, const geometry::Periods& periods);
-
   /// A corner and its angle in degrees. An angle of 0 means that there is no corner.
   struct Corner {
     geometry::Vec2 place;
     double degrees = 0;
     geometry::Vec2 ahead{}, back{}; ///< its two chords
   };
+  SharpCorners(const polygon::BoundarySites& boundary, const geometry::Periods& periods);
+  /// Takes the sharp ones of these corners.
+  SharpCorners(std::span<const Corner> corners, const geometry::Periods& periods);
+
   /// @brief Returns the corner nearest to the vertices of a triangle, if it is at most 3 longest edges of the triangle
   /// away. A corner farther away counts if a vertex lies between its arms, where these are less than the longest edge
   /// apart. Of equally near corners it returns the lexicographically first. Cost: O(corners in a strip of this width).
   Corner near(geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r) const;
 
 private:
+  void add_if_sharp(const Corner& corner);
+  void sort();
+
   const geometry::Periods& periods_;
   std::vector<Corner> corners_; // in lexicographic order
   double sharpest_ = 90;        // degrees
@@ -118,7 +123,9 @@ class QualityMeter {
 public:
   /// @pre all arguments outlive this object
   QualityMeter(const sizing::SizeField& size, const geometry::Periods& periods, const SharpCorners& corners)
-      : size_(size), periods_(periods), corners_(corners) {}
+      : size_(&size), periods_(periods), corners_(corners) {}
+  /// Without a size field, the caller of add_edge says how large h is in the middle.
+  QualityMeter(const geometry::Periods& periods, const SharpCorners& corners) : periods_(periods), corners_(corners) {}
 
   /// Sets the arrays to which alpha and beta of the following triangles are written, one after the other.
   void write_to(std::span<float> alpha, std::span<float> beta) {
@@ -129,6 +136,8 @@ public:
   /// Adds an edge. @param size_at_p h at the end p
   /// @throws GeometryError if h at the middle of the edge is not positive and finite
   void add_edge(geometry::Vec2 p, geometry::Vec2 q, double size_at_p);
+  /// Does the same if there is no size field. @param size_at_middle h at the middle of the edge
+  void add_edge(geometry::Vec2 p, geometry::Vec2 q, double size_at_p, double size_at_middle);
   /// Measures the remaining triangles and edges of incomplete blocks.
   void finish();
   QualitySums& sums() { return sums_; }
@@ -149,13 +158,15 @@ private:
   void measure_edges();
   void note_extremes(std::span<const double> length, std::span<const double> size);
 
-  const sizing::SizeField& size_;
+  void find_sizes(std::span<double> sizes) const;
+
+  const sizing::SizeField* size_ = nullptr;
   const geometry::Periods& periods_;
   const SharpCorners& corners_;
   QualitySums sums_;
   std::size_t triangles_ = 0, edges_ = 0; // numbers of triangles and edges in the incomplete blocks
   Places p_, q_, r_, from_, to_;
-  Values from_size_;
+  Values from_size_, middle_size_; // the latter only without a size field
   std::span<float> alpha_, beta_;
 };
 

@@ -69,6 +69,11 @@ int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice) {
   return sign != 0 ? sign : in_circle_exact(a, b, c, d, lattice);
 }
 
+bool is_inside_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice) {
+  const int sign = in_circle_filter(a, b, c, d);
+  return (sign != 0 ? sign : exact_side(a, b, c, d, lattice)) > 0;
+}
+
 int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice, const Periods& periods) {
   int sign = in_circle_filter(a, b, c, d);
   if (sign == 0)

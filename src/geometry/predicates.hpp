@@ -51,6 +51,10 @@ inline int in_circle_filter(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
 /// Computes in_circle in exact integers without the filter. Used by tests, and if the filter is not certain.
 int in_circle_exact(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice);
 
+/// Returns whether d lies strictly inside the circle through a, b, c (counter-clockwise); false for cocircular points.
+/// Exact.
+bool is_inside_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice);
+
 /// @brief Computes in_circle in a periodic container, where periodic images of the four points must give the same
 /// result. Ties are broken by the order of the canonical images, so all images of four points agree. If the container
 /// is not periodic, it is the function above.

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/refine.hpp"
+
+#include "app/machine.hpp"
+#include "app/refined_metadata.hpp"
+#include "app/stored_shape.hpp"
+#include "comm/agree.hpp"
+#include "core/quoted.hpp"
+#include "formats/output_files.hpp"
+#include "trime/core/timer.hpp"
+#include "trime/refinement/refine.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+
+namespace trime::app {
+namespace {
+
+using io::Metadata;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Directory and NAME of a mesh file. @throws ConfigError on all ranks unless the path ends with .h5
+io::MeshFileOptions output_of(const std::string& path, bool overwrite) {
+  const std::filesystem::path file(path);
+  if (file.extension() != ".h5" || file.stem().empty())
+    throw ConfigError(fmt::format("'trime_mpi refine' writes a mesh file: expected a name that ends with .h5, found "
+                                  "'{}'; 'trime_mpi convert' writes other formats",
+                                  shown(path)));
+  io::MeshFileOptions options;
+  options.directory = file.has_parent_path() ? file.parent_path().string() : ".";
+  options.name = file.stem().string();
+  options.overwrite = overwrite;
+  options.is_final = true;
+  return options;
+}
+
+/// The mesh is read before it is replaced, but a failure in between must not cost the only copy.
+void refuse_same_file(const std::string& from, const std::string& to, const comm::Communicator& comm) {
+  comm::run_agreed(comm, [&] {
+    std::error_code error;
+    if (comm.is_root() && std::filesystem::equivalent(from, to, error))
+      throw ConfigError(fmt::format("'trime_mpi refine' reads and would replace the same file {}; give the refined "
+                                    "mesh another name",
+                                    from));
+  });
+}
+
+/// Returns the largest power of two that divides a coordinate; infinity for 0.
+double step_of(double coordinate) {
+  if (coordinate == 0)
+    return infinity;
+  int exponent = 0;
+  const auto digits = static_cast<std::uint64_t>(std::ldexp(std::fabs(std::frexp(coordinate, &exponent)), 53));
+  return std::ldexp(1.0, exponent - 53 + std::countr_zero(digits));
+}
+
+/// @brief Returns a container of all points, for a mesh whose container is not known: the box around them, in a
+/// periodic container one with its periods. It is made larger until its lattice is as coarse as that of the points.
+/// Collective.
+geometry::Frame frame_around(const mesh::DistributedMesh& mesh, const Metadata& metadata,
+                             const comm::Communicator& comm) {
+  constexpr double coarser = 64; // at most: of few points, all may lie on a lattice that is too coarse for new ones
+  std::array<double, 5> least{infinity, infinity, infinity, infinity, infinity};
+  for (const geometry::Vec2 p : mesh.points)
+    least = {std::min(least[0], p.x), std::min(least[1], p.y), std::min(least[2], -p.x), std::min(least[3], -p.y),
+             std::min({least[4], step_of(p.x), step_of(p.y)})};
+  comm.min(least);
+  geometry::Box box{{least[0], least[1]}, {-least[2], -least[3]}};
+  const double period_x = io::attribute_of<double>(metadata, "period_x");
+  const double period_y = io::attribute_of<double>(metadata, "period_y");
+  const double step = std::min(least[4], coarser * geometry::Lattice(box).step());
+  const double side = 0.75 * 0x1p44 * step; // of a container with such a lattice
+  const auto grow = [side](double low, double& high, double period) {
+    high = period > 0 ? low + period : std::fmax(high, low + side);
+  };
+  grow(box.min.x, box.max.x, period_x);
+  grow(box.min.y, box.max.y, period_y);
+  return geometry::Frame(box, period_x > 0, period_y > 0);
+}
+
+/// Sets the limits that the mesh had to keep.
+void take_promises(const Metadata& metadata, refinement::Surroundings& surroundings) {
+  if (!io::find_group(metadata, "checks"))
+    return;
+  const auto& names = io::column_of<std::string>(metadata, "checks", "name");
+  const auto& expected = io::column_of<double>(metadata, "checks", "expected");
+  for (std::size_t k = 0; k < std::min(names.size(), expected.size()); ++k)
+    if (names[k] == "worst_alpha")
+      surroundings.worst_alpha = expected[k];
+    else if (names[k] == "longest_edge")
+      surroundings.limits_edges = true;
+}
+
+void warn(const StoredShape& shape, const refinement::BoundaryMiddles& middles, const std::string& from, Log& log) {
+  const std::int64_t all = middles.on_curve + middles.near_curve + middles.straight + middles.refused;
+  if (all == 0)
+    return;
+  if (!shape.input)
+    log.warning("the {} new boundary points lie in the middles of the boundary edges of {}, not on the curves of the "
+                "shape: {}",
+                all, from, shape.reason);
+  else if (middles.straight > 0)
+    log.warning("{} of {} new boundary points lie in the middles of boundary edges, because the mesh follows a "
+                "simplified boundary there, and not the curves of the shape",
+                middles.straight, all);
+  if (middles.refused > 0)
+    log.warning("{} of {} new boundary points lie in the middles of boundary edges, because on the curve of the shape "
+                "they would make bad triangles or crossing edges",
+                middles.refused, all);
+}
+
+} // namespace
+
+ExitCode refine(const CommandLine& line, io::RunFiles* files, const comm::Communicator& comm, Log& log) {
+  const double start = wall_seconds();
+  const std::string &from = line.files[0], &to = line.files[1];
+  io::MeshFileOptions options = output_of(to, line.overwrite);
+  refuse_same_file(from, to, comm);
+  std::vector<std::string> paths;
+  for (const char* ending : io::mesh_file_endings)
+    paths.push_back(options.path(ending));
+  formats::refuse_to_replace(paths, line.overwrite, "add --overwrite to replace it", comm);
+  const Placement placement = place_threads(0, 0, comm);
+  use_threads(placement, placement.threads);
+
+  const Metadata metadata = io::read_metadata(from, groups_to_refine(), comm);
+  refinement::Refined refined;
+  const StoredShape shape = stored_shape(metadata, from, comm);
+  {
+    const mesh::DistributedMesh mesh = io::read_mesh(from, metadata, comm);
+    refinement::Surroundings surroundings{shape.input ? shape.input->domain().frame()
+                                                      : frame_around(mesh, metadata, comm),
+                                          shape.input ? &shape.input->boundary() : nullptr};
+    take_promises(metadata, surroundings);
+    refined = refinement::refine(comm, mesh, surroundings);
+  }
+  warn(shape, refined.middles, from, log);
+  options.vtkhdf = shape.vtkhdf;
+  options.xdmf = shape.xdmf;
+  options.run_files = files;
+  options.part_markers = io::column_of<std::int32_t>(metadata, "tags", "part_marker");
+  const Metadata described = refined_metadata(metadata, refined, line, wall_seconds() - start, comm);
+  const io::WrittenFiles written = io::write_mesh(options, refined.mesh, described, comm);
+  log.info("{}: {} points, {} triangles, {} boundary edges; mesh hash {:016x}", to, refined.mesh.point_slab.total,
+           refined.mesh.triangle_slab.total, refined.mesh.facet_slab.total, refined.mesh.hash);
+  const bool is_complete = comm.broadcast(std::string{says_complete(described) ? '1' : '0'}) == "1";
+  if (!is_complete)
+    log.warning("{} holds a mesh that is NOT complete, see 'trime_mpi info {}'", to, to);
+  return is_complete ? ExitCode::done : ExitCode::incomplete;
+}
+
+} // namespace trime::app
