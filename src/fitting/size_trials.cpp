@@ -79,7 +79,9 @@ SizeTrial SizeTrials::count(Stage laid, double coarsening) const {
                                  context_.options.points ? FitRules::hopelessly_many * points_ : INFINITY);
     trial.fit.inner = std::floor(trial.totals.sites);
   }
-  trial.points = trial.fit.inner + static_cast<double>(stage.placed_first());
+  trial.points = fitted_.steep.is_full && stage.polygon.overfull
+                     ? FitRules::hopelessly_many * points_
+                     : trial.fit.inner + static_cast<double>(stage.placed_first());
   return trial;
 }
 
