@@ -132,11 +132,15 @@ void set_sizes(const LayoutContext& context, FittedSize& fitted, Stage& stage) {
   const geometry::Periods& periods = context.given_boundary.periods;
   stage.scaled_size = std::make_unique<sizing::ScaledSize>(context.asked_size(fitted.factor));
   stage.limited_size.reset();
+  stage.raised_size.reset();
   stage.lowered_size.reset();
   find_steep_places(context, stage, fitted);
   if (const SteepPlaces& steep = fitted.steep; !steep.limits.empty())
     stage.limited_size =
         std::make_unique<sizing::LoweredSize>(*stage.scaled_size, Sets{{steep.limits, steep.gradation}}, periods);
+  if (!context.raised.empty())
+    stage.raised_size =
+        std::make_unique<sizing::RaisedSize>(stage.growing_size(), context.raised, context.narrow_gradation(), periods);
   const sizing::SizeField* last = &stage.asked_size();
   if (!fitted.limits.empty()) {
     stage.lowered_size =
@@ -180,7 +184,8 @@ std::unique_ptr<BoundaryRefiner> make_refiner(const LayoutContext& context, std:
     return std::make_unique<BoundaryRefiner>(curves, sizes, context.lattice, context.options.features.corner_angle,
                                              context.fixed.inside(), rule, affordable);
   };
-  if (stage.size->is_uniform() || stage.limited_size) // samples of a steep size would lie too far apart
+  if (stage.size->is_uniform() || stage.limited_size ||
+      stage.raised_size) // samples of a steep size would lie too far apart
     return make({*stage.size, asked});
   std::shared_ptr<const SizeSamples>& samples = stage.curves ? fitted.curves.samples : fitted.samples;
   if (!samples || !samples->serve(fitted.factor))

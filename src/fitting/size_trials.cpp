@@ -85,11 +85,15 @@ SizeTrial SizeTrials::count(Stage laid, double coarsening) const {
   return trial;
 }
 
-SizeTrial SizeTrials::run(double factor) {
+Stage SizeTrials::lay_with_limits(double factor) {
   Stage laid = lay(factor);
   while (find_limits(laid))
     laid = lay(factor);
-  return count(std::move(laid), coarsening_);
+  return laid;
+}
+
+SizeTrial SizeTrials::run(double factor) {
+  return count(lay_with_limits(factor), coarsening_);
 }
 
 /// Calls sample(p) for the start and the middle of some pieces of the boundary, spread evenly over them.
