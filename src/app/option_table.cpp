@@ -230,8 +230,8 @@ const Option table[] = {
      .fallback = "none",
      .choices = "none",
      .range = positive,
-     .meaning = "the mesh must have no shorter edge: sizes are not lowered below what this takes, and a mesh with a "
-                "shorter edge ends with exit code 5"},
+     .meaning = "no edge of the mesh is shorter: sizes are raised where this takes it, and the shape is simplified "
+                "there; a mesh with a shorter edge ends with exit code 5"},
 
     {.section = "meshing",
      .key = "method",

@@ -199,6 +199,22 @@ void FixedPoints::check_inside(const BoundaryGuard& guard, std::span<const geome
   }
 }
 
+void FixedPoints::check_distances(double shortest_edge) const {
+  if (all_.size() < 2 || !(shortest_edge > 0))
+    return;
+  const SiteTree tree = tree_of(all_);
+  for (std::size_t k = 0; k < all_.size(); ++k)
+    for (const Vec2 shift : images_of(given_boundary_.periods))
+      tree.for_each_within(all_[k] + shift, shortest_edge, [&](const SiteTree::Entry& other) {
+        if (static_cast<std::size_t>(other.index) != k)
+          throw GeometryError(fmt::format("the fixed points {} and {} are {:.6g} apart, but shortest_edge = {:g} in "
+                                          "[sizing] allows no edge that short: take one of them out, or set a smaller "
+                                          "shortest_edge",
+                                          Place(all_[k]), Place(other.position),
+                                          geometry::length(all_[k] + shift - other.position), shortest_edge));
+      });
+}
+
 /// Is a point of inside_ nearer to p?
 bool FixedPoints::is_near(Vec2 p, double distance) const {
   const Vec2 across{distance, 0};

@@ -55,6 +55,9 @@ public:
   /// @throws GeometryError for the first point outside the shape or in such a component, with its label and its
   /// distance
   void check_inside(const polygon::BoundaryGuard& guard, std::span<const geometry::Loop> left_out = {}) const;
+  /// Checks that no two fixed points are nearer to each other than the shortest edge that the user allows.
+  /// @throws GeometryError that names two such points
+  void check_distances(double shortest_edge) const;
   /// Returns the number of free sites that place_among would keep.
   std::int64_t count_clear(std::span<const mesh::Site> sites, const sizing::SizeField& size) const;
   /// @brief Removes free sites that are too near to a fixed point, then adds the fixed points that lie in these tiles.

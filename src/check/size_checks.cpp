@@ -32,11 +32,13 @@ struct Range {
 struct Sizing {
   bool is_expression = false; ///< it may jump, so the size between points is anything
   double gradation = 0;       ///< it changes by no more per length
+  bool may_be_raised = false; ///< a uniform size may be larger at places, so that no edge is too short
 
   explicit Sizing(const StoredFile& file) {
     const ConfigText config(file.text("/trime_mpi/config_resolved"), "");
     const std::string type = config.value("sizing", "type");
     is_expression = type == "expression";
+    may_be_raised = config.number("sizing", "shortest_edge").has_value();
     const std::string size_at = config.value("sizing", "size_at");
     if (type == "uniform" && (size_at.empty() || size_at == "none"))
       return;
@@ -189,8 +191,9 @@ void check_facets(const StoredFile& file, const Mesh& mesh, const Sizing& sizing
     const double size = mesh.asked_sizes[k], a = mesh.size[static_cast<std::size_t>(mesh.facets[k][0])],
                  b = mesh.size[static_cast<std::size_t>(mesh.facets[k][1])];
     const auto place = [&] { return fmt::format("facet {}: {:.6g}, points {:.6g} and {:.6g}", k, size, a, b); };
+    const double most = single_precision * length.value_or(0);
     if (!(size > 0) || !std::isfinite(size) ||
-        (is_uniform && length && std::fabs(size - *length) > single_precision * *length))
+        (is_uniform && length && (size < *length - most || (size > *length + most && !sizing.may_be_raised))))
       asked.note(place);
     else if (size * size_factor <= std::min(a, b) || size * lowest >= size_factor * std::max(a, b))
       unrelated.note(place);

@@ -162,8 +162,12 @@ public:
     exact("smallest_size", smallest);
     exact("largest_size", largest);
     const double asked = mesh_.asked_sizes.empty() ? 0 : std::ranges::max(mesh_.asked_sizes);
-    if (file_.text_attribute("/trime_mpi", "sizing") == "uniform") // else it is one of the container
-      exact("edge_length", std::max(largest, asked));
+    if (file_.text_attribute("/trime_mpi", "sizing") == "uniform") { // else it is one of the container
+      if (ConfigText(file_.text("/trime_mpi/config_resolved"), "").number("sizing", "shortest_edge"))
+        within("edge_length", 0, std::max(largest, asked)); // the size may be raised at places
+      else
+        exact("edge_length", std::max(largest, asked));
+    }
     double slivers = area_tolerance * counted_.area;
     for (std::size_t k = 0; k < mesh_.facets.size(); ++k) {
       const Point a = mesh_.at(mesh_.facets[k][0]), d = mesh_.periods.near(mesh_.at(mesh_.facets[k][1]), a) - a;

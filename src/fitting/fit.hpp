@@ -6,6 +6,7 @@
 #include "fitting/few_points.hpp"
 #include "fitting/lattice_fit.hpp"
 #include "fitting/layout.hpp"
+#include "fitting/size_trials.hpp"
 #include "fitting/stage_fit.hpp"
 
 #include <optional>
@@ -35,8 +36,13 @@ public:
 
   /// Returns true if the uniform size of a lattice would make bad triangles in narrow parts of the shape.
   bool needs_lowering(const sites::Stage& laid) const { return fitting::needs_lowering(context_, laid); }
-  /// Lets the boundary lower a uniform size at some places from now on. Local. @pre needs_lowering() has returned true
+  /// Lets the boundary lower or raise a uniform size at some places from now on. Local. @pre needs_lowering() or
+  /// raise_at_short_edges() has returned true
   void lower_uniform() { context_.lowers_uniform = true; }
+  /// @brief Raises the size around boundary sites that are nearer to each other than `shortest_edge`, so that the
+  /// boundary is simplified more there. @return false if nothing was raised; otherwise all that was found is out of
+  /// date
+  bool raise_at_short_edges(const sites::Stage& laid);
   /// From now on, components of the shape that are narrow everywhere are cut to pieces instead of widened, so that
   /// the mesh needs fewer points; and the boundary no longer lowers a uniform size. Local. @pre a search has returned
   /// TooFewPoints
@@ -67,9 +73,12 @@ public:
   std::span<const sizing::SizeLimit> limits() const { return fitted_.limits; }
 
 private:
+  std::variant<SizeTrial, TooFewPoints> long_enough(double points, double coarsening);
+
   LayoutContext context_;
   FittedSize fitted_;
   std::optional<FittedSize> of_lattice_; // result of find_lattice, if it simplified curves
+  int raisings_ = 0;                     // how often the size was raised
 };
 
 } // namespace trime::fitting

@@ -21,6 +21,7 @@ struct FitOptions {
   boundary::FeatureOptions features;
   std::optional<double> min_size, max_size;
   double least_lowered = 0; ///< narrow places do not lower h below this
+  double shortest_edge = 0; ///< no edge of the boundary may be shorter; 0: no limit
 };
 
 } // namespace trime::fitting

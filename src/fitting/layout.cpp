@@ -36,6 +36,16 @@ constexpr double most_steepness = 1.05;
 // [1] They serve a factor that is smaller by this, at most: the places then lie farther apart than they should.
 constexpr double least_steepness = 0.7;
 
+// [1] Places at which a steep size is limited, for each point asked for: the mesh would have more points than that,
+// since the places are about a third of a size apart and the size grows slowly from there.
+constexpr double steep_places_per_point = 2;
+
+// [places] So few of them never mean that there are too many points.
+constexpr double few_steep_places = 4096;
+
+// [places] Largest number if the number of points is not given.
+constexpr double most_steep_places = 1 << 24;
+
 using boundary::BoundaryRefiner;
 using boundary::BoundaryRules;
 using boundary::BoundarySizes;
@@ -91,6 +101,7 @@ void find_steep_places(const LayoutContext& context, const Stage& stage, FittedS
   SteepPlaces& steep = fitted.steep;
   if (!gradation || asked.factor() * context.relative_size.largest_growth() <= *gradation) {
     steep.limits.clear();
+    steep.is_full = false;
     return;
   }
   if (asked.factor() > most_steepness * steep.factor || asked.factor() < least_steepness * steep.factor) {
@@ -98,7 +109,12 @@ void find_steep_places(const LayoutContext& context, const Stage& stage, FittedS
     if (!steep.sizes)
       steep.sizes = std::make_shared<sizing::SteepSizes>(context.comm, context.relative_size, context.given_boundary,
                                                          context.lattice, std::fmax(steep_samples, 0.5 * points));
-    sizing::SteepSizes::Limits found = steep.sizes->limits(asked, *gradation);
+    const double most_places =
+        context.options.points
+            ? std::fmax(few_steep_places, steep_places_per_point * static_cast<double>(*context.options.points))
+            : most_steep_places;
+    sizing::SteepSizes::Limits found = steep.sizes->limits(asked, *gradation, most_places);
+    steep.is_full = found.is_full;
     steep.limits = std::move(found.limits);
     steep.gradation = found.gradation;
     steep.steepest = found.steepest;
@@ -116,11 +132,15 @@ void set_sizes(const LayoutContext& context, FittedSize& fitted, Stage& stage) {
   const geometry::Periods& periods = context.given_boundary.periods;
   stage.scaled_size = std::make_unique<sizing::ScaledSize>(context.asked_size(fitted.factor));
   stage.limited_size.reset();
+  stage.raised_size.reset();
   stage.lowered_size.reset();
   find_steep_places(context, stage, fitted);
   if (const SteepPlaces& steep = fitted.steep; !steep.limits.empty())
     stage.limited_size =
         std::make_unique<sizing::LoweredSize>(*stage.scaled_size, Sets{{steep.limits, steep.gradation}}, periods);
+  if (!context.raised.empty())
+    stage.raised_size =
+        std::make_unique<sizing::RaisedSize>(stage.growing_size(), context.raised, context.narrow_gradation(), periods);
   const sizing::SizeField* last = &stage.asked_size();
   if (!fitted.limits.empty()) {
     stage.lowered_size =
@@ -168,7 +188,8 @@ std::unique_ptr<BoundaryRefiner> make_refiner(const LayoutContext& context, std:
                                                                      context.fixed.inside(), context.fixed.held(), rule,
                                                                      affordable});
   };
-  if (stage.size->is_uniform() || stage.limited_size) // samples of a steep size would lie too far apart
+  if (stage.size->is_uniform() || stage.limited_size ||
+      stage.raised_size) // samples of a steep size would lie too far apart
     return make({*stage.size, asked});
   std::shared_ptr<const SizeSamples>& samples = stage.curves ? fitted.curves.samples : fitted.samples;
   if (!samples || !samples->serve(fitted.factor))
@@ -190,6 +211,10 @@ Stage lay_bare(const LayoutContext& context, FittedSize& fitted, double coarseni
   stage.coarsening = coarsening;
   stage.typical_size = typical_size(context, expected);
   set_sizes(context, fitted, stage);
+  if (fitted.steep.is_full && context.options.points) {
+    stage.polygon.overfull = true;
+    return stage;
+  }
   const sizing::ScaledSize asked(stage.asked_size(), coarsening);
   share_simplified_curves(context, stage.asked_size(), fitted.factor, fitted.curves);
   stage.polygon = make_boundary_sites(context.comm, [&] {

@@ -5,6 +5,7 @@
 #include "boundary/fixed_points.hpp"
 #include "boundary/rules.hpp"
 #include "fitting/fit_options.hpp"
+#include "sizing/raised_size.hpp"
 #include "trime/comm/communicator.hpp"
 #include "trime/core/log.hpp"
 #include "trime/core/timer.hpp"
@@ -12,6 +13,7 @@
 #include "trime/sizing/size_field.hpp"
 
 #include <cmath>
+#include <vector>
 
 namespace trime::fitting {
 
@@ -38,7 +40,8 @@ struct LayoutContext {
   bool cuts_thin_components = false; ///< see generalise::Choice; set if every other boundary has too many points
   bool lowers_uniform =
       false; ///< the boundary may lower a uniform size at some places, as it does with a size that varies
-  GradedSize graded{relative_size}; ///< the size field that replaces a uniform one if lowers_uniform is set
+  std::vector<sizing::LeastSize> raised{}; ///< where the size must be larger, because edges would be too short there
+  GradedSize graded{relative_size};        ///< the size field that replaces a uniform one if lowers_uniform is set
   const geometry::Boundary& given_boundary =
       domain.boundary(); ///< the boundary as it was given, without corners at fixed points
   const geometry::Lattice& lattice = domain.frame().lattice();

@@ -64,6 +64,18 @@ struct LayoutRules {
   static constexpr double warned_share_of_chords = 0.01;
 };
 
+/// The numbers for raising the size around edges that are shorter than the user allows.
+struct RaisingRules {
+  /// [1] Factor on the size at the place of a short edge.
+  static constexpr double step = 1.3;
+  /// [1] A smaller factor is not worth another round. Not measured.
+  static constexpr double least_step = 1.02;
+  /// [1] Largest factor on the size that the user asks for.
+  static constexpr double most_raised = 4;
+  /// [rounds] How often the size is raised before the mesh is made.
+  static constexpr int most_rounds = 12;
+};
+
 /// The numbers of the search for the size that yields the points asked for.
 struct FitRules {
   /// [1] Smallest relative change of a factor or a spacing while the bracket has only one end.

@@ -79,15 +79,21 @@ SizeTrial SizeTrials::count(Stage laid, double coarsening) const {
                                  context_.options.points ? FitRules::hopelessly_many * points_ : INFINITY);
     trial.fit.inner = std::floor(trial.totals.sites);
   }
-  trial.points = trial.fit.inner + static_cast<double>(stage.placed_first());
+  trial.points = fitted_.steep.is_full && stage.polygon.overfull
+                     ? FitRules::hopelessly_many * points_
+                     : trial.fit.inner + static_cast<double>(stage.placed_first());
   return trial;
 }
 
-SizeTrial SizeTrials::run(double factor) {
+Stage SizeTrials::lay_with_limits(double factor) {
   Stage laid = lay(factor);
   while (find_limits(laid))
     laid = lay(factor);
-  return count(std::move(laid), coarsening_);
+  return laid;
+}
+
+SizeTrial SizeTrials::run(double factor) {
+  return count(lay_with_limits(factor), coarsening_);
 }
 
 /// Calls sample(p) for the start and the middle of some pieces of the boundary, spread evenly over them.

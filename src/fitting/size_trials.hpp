@@ -41,6 +41,8 @@ public:
   /// Looks for more limits of the size, at most a few times. Returns true if it finds any; later trials use them.
   /// @param laid the last result of lay()
   bool find_limits(const sites::Stage& laid);
+  /// Lays out boundary sites within all limits that the factor needs.
+  sites::Stage lay_with_limits(double factor);
   /// Counts the points of a layout; if there are far too many, the number is not exact. @param laid the last result of
   /// lay() @param coarsening factor on the width of the cells of the integral
   SizeTrial count(sites::Stage laid, double coarsening) const;

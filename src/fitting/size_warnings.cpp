@@ -63,6 +63,21 @@ void warn_of_lowered_growth(const SteepPlaces& steep, double gradation, Log& log
                   : "");
 }
 
+void warn_of_raised_sizes(const Stage& stage, const std::vector<sizing::LeastSize>& raised, double shortest_edge,
+                          Log& log) {
+  double most = 1;
+  geometry::Vec2 place;
+  for (const sizing::LeastSize& least : raised)
+    if (const double ratio = least.size / stage.growing_size().size(least.place); ratio > most) {
+      most = ratio;
+      place = least.place;
+    }
+  if (most > 1)
+    log.warning("shortest_edge = {:g} in [sizing] makes the size larger around parts of the shape where edges would be "
+                "shorter, and the shape is simplified more there: the size is up to {:.3g} times as large, near {}",
+                shortest_edge, most, Place(place, 4));
+}
+
 void warn_of_fine_features(const Stage& stage, bool has_least_size, Log& log) {
   const auto& sites = stage.polygon.sites;
   double least = warned_chord, length = 0, size = 0; // chord over local size

@@ -10,6 +10,7 @@ MeshedBoundary::MeshedBoundary(const RunContext& run)
     : fixed_(run.given_boundary, run.domain.frame().container(), run.domain.fixed_points(), run.lattice, run.log) {
   fixed_.hold(run.domain.curves());
   boundary::check_choice_of_component(run.given_boundary, run.options.features);
+  fixed_.check_distances(run.options.shortest_edge.value_or(0));
 }
 
 void MeshedBoundary::follow(std::shared_ptr<const geometry::Boundary> curves, const polygon::DroppedLoops& dropped) {

@@ -8,8 +8,10 @@
 #include "comm/agree.hpp"
 #include "core/processors.hpp"
 #include "extraction/extraction.hpp"
+#include "extraction/short_edges.hpp"
 #include "fitting/expected_points.hpp"
 #include "fitting/layout_context.hpp"
+#include "fitting/raised_places.hpp"
 #include "fitting/size_warnings.hpp"
 #include "meshing/checkpoint_writer.hpp"
 #include "meshing/meshed_boundary.hpp"
@@ -22,11 +24,17 @@
 #include "trime/core/timer.hpp"
 #include "trime/shape/traced_part.hpp"
 
+#include <algorithm>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace trime::meshing {
 namespace {
+
+// [length] The ends of an edge lie no farther from its middle than half its length, except for rounding.
+constexpr double short_edge_slack = 1e-6;
 
 using cleanup::CleanupCounts;
 using cleanup::CleanupRules;
@@ -37,15 +45,24 @@ using sweep::LemmaReach;
 class Run {
 public:
   /// @param saved where to go on; null: from the start
-  Run(const RunContext& run, const SnapshotObserver& observer, Checkpoints* checkpoints, const SavedRun* saved)
+  /// @param raised where the size must be larger, because an earlier run has made too short edges there
+  Run(const RunContext& run, const SnapshotObserver& observer, Checkpoints* checkpoints, const SavedRun* saved,
+      std::vector<sizing::LeastSize> raised)
       : run_(run), saved_(saved), input_(check_same_input(run.domain, run.relative_size, run.comm)),
-        boundary_(run), layout_{run.comm, run.domain, run.relative_size, run.fit,
-                                run.log,  run.timers, boundary_.fixed()},
+        boundary_(run), layout_{.comm = run.comm,
+                                .domain = run.domain,
+                                .relative_size = run.relative_size,
+                                .options = run.fit,
+                                .log = run.log,
+                                .timers = run.timers,
+                                .fixed = boundary_.fixed(),
+                                .raised = std::move(raised)},
         scheme_(layout_, start_options(run.options)), stars_(run), snapshots_(run, boundary_, stars_, observer),
         checkpoints_(run, checkpoints, [this](StateFields& fields) { visit(fields); }),
         relaxation_(run, stars_, snapshots_, checkpoints_) {}
 
-  MeshResult make() {
+  /// Makes the mesh, or nothing if edges are too short and larger sizes around them may help. Then raised() says where.
+  std::optional<MeshResult> make(bool may_raise) {
     if (saved_) {
       go_on_from(*saved_);
     } else {
@@ -63,10 +80,14 @@ public:
     const bool mended = clean_up();
     empty_discs(); // of chords that the clean-up has moved, where sizes are steep
     stars_.complete(stage_, mended ? LemmaReach::inside : LemmaReach::up_to_chords);
+    if (may_raise && raise_at_short_edges())
+      return std::nullopt;
     return extract();
   }
+  std::vector<sizing::LeastSize> take_raised() { return std::move(raised_); }
 
 private:
+  bool raise_at_short_edges();
   void start_first_stage();
   void start_next_stage();
   void go_on_from(const SavedRun& saved);
@@ -83,6 +104,7 @@ private:
   MeshResult extract();
   void judge_bodies();
   void promise_shortest_edge(double least, MeshResult& result) const;
+  std::string reason_for_short_edge(const mesh::QualitySummary& quality) const;
   void tell_of_run(MeshResult& result);
   void tell_of_start(MeshResult& result) const;
   std::string count_reason(GlobalId points) const;
@@ -99,7 +121,8 @@ private:
   CheckpointWriter checkpoints_;
   Relaxation relaxation_;
   boundary::FeatureReport features_;
-  GlobalId placed_ = 0; // points at the beginning of the stage
+  std::vector<sizing::LeastSize> raised_; // where the size must be larger in the next run
+  GlobalId placed_ = 0;                   // points at the beginning of the stage
   CleanupCounts cleanup_;
 };
 
@@ -241,6 +264,22 @@ bool Run::clean_up() {
   return cleanup_.better > 0;
 }
 
+/// Lists where the size must be larger so that no edge is too short. Returns false if that is nowhere. Collective.
+bool Run::raise_at_short_edges() {
+  const double shortest = run_.options.shortest_edge.value_or(0);
+  const auto time = run_.timers.scope("measure");
+  const std::vector<geometry::ShortEdge> edges = extraction::short_edges(stage_.view(run_.lattice), shortest);
+  std::vector<sizing::LeastSize> more;
+  comm::run_agreed(run_.comm, [&] { more = fitting::raised_around(edges, stage_, run_.fit); });
+  if (more.empty())
+    return false;
+  run_.log.info("shortest_edge: {} edges are shorter than {:g}; the mesh is made again with larger sizes around them",
+                edges.size(), shortest);
+  raised_ = scheme_.raised();
+  raised_.insert(raised_.end(), more.begin(), more.end());
+  return true;
+}
+
 /// The arrays that are written, with their quality and the certificate.
 MeshResult Run::extract() {
   const sites::StageView view = stage_.view(run_.lattice, boundary_.fixed().all());
@@ -267,8 +306,10 @@ MeshResult Run::extract() {
   result.checks.push_back(extraction::worst_alpha_check(result.quality, run_.options.worst_alpha));
   if (run_.fit.gradation || run_.relative_size.is_uniform()) // else the size may jump from point to point
     result.checks.push_back(extraction::longest_edge_check(result.quality));
-  if (const std::optional<double>& least = run_.options.shortest_edge)
+  if (const std::optional<double>& least = run_.options.shortest_edge) {
+    comm::run_agreed(run_.comm, [&] { fitting::warn_of_raised_sizes(stage_, scheme_.raised(), *least, run_.log); });
     promise_shortest_edge(*least, result);
+  }
   if (const std::optional<double>& most = run_.options.features.max_loss)
     result.checks.push_back({"lost_area", *most, features_.lost_share, features_.lost_share <= *most,
                              "share of the area of the given shape that is lost: at most max_loss"});
@@ -277,15 +318,30 @@ MeshResult Run::extract() {
   return result;
 }
 
-/// Adds the check that the shortest edge is long enough, and says what to do if it is not.
+/// Adds the check that the shortest edge is long enough, and says what keeps it short if it is not.
 void Run::promise_shortest_edge(double least, MeshResult& result) const {
   const mesh::Check& check = result.checks.emplace_back(extraction::shortest_edge_check(result.quality, least));
   if (!check.passed)
-    run_.log.warning(
-        "the shortest edge is {:.6g} long, at {}, but shortest_edge = {:g} in [sizing]: the shape is narrower "
-        "there, or has a corner there. Larger sizes simplify it (min_size); so do larger values of "
-        "simplify_within and corner_angle in [meshing]",
-        result.quality.shortest_edge, Place(result.quality.shortest_place, 10), least);
+    run_.log.warning("the shortest edge is {:.6g} long, at {}, but shortest_edge = {:g} in [sizing]: {}",
+                     result.quality.shortest_edge, Place(result.quality.shortest_place, 10), least,
+                     reason_for_short_edge(result.quality));
+}
+
+/// Says what lies at the ends of the shortest edge.
+std::string Run::reason_for_short_edge(const mesh::QualitySummary& quality) const {
+  const double reach = (1 + short_edge_slack) * 0.5 * quality.shortest_edge;
+  const auto is_at_end = [&](geometry::Vec2 p) { return geometry::length(p - quality.shortest_place) <= reach; };
+  if (std::ranges::any_of(boundary_.fixed().all(), is_at_end))
+    return "a fixed point lies there, too near to the boundary or to another point. Take it out, or set a smaller "
+           "shortest_edge";
+  if (run_.options.features.keep_all)
+    return "keep_features = true in [meshing] keeps everything that is smaller. Without it the shape is simplified";
+  if (std::ranges::any_of(stage_.polygon.sites,
+                          [&](const polygon::BoundarySite& site) { return site.corner && is_at_end(site.position); }))
+    return "the shape has a corner there that larger triangles around it do not remove. Simplify the shape there, or "
+           "set a larger corner_angle in [meshing] or a smaller shortest_edge";
+  return "larger triangles around it have not helped. Simplify the shape there, or set a larger min_size or a smaller "
+         "shortest_edge";
 }
 
 /// Compares the loops of the shape with the final edges, which the clean-up may have moved. Collective.
@@ -316,7 +372,7 @@ void Run::tell_of_run(MeshResult& result) {
 /// Sets what was asked for and how the start met it. @pre the mesh is in the result
 void Run::tell_of_start(MeshResult& result) const {
   result.requested_points = run_.fit.points.value_or(0);
-  result.edge_length = run_.relative_size.is_uniform() ? stage_.asked_size().size({}) : stage_.typical_size;
+  result.edge_length = run_.relative_size.is_uniform() ? stage_.growing_size().size({}) : stage_.typical_size;
   result.start_reason = scheme_.reason();
   const GlobalId points = result.mesh.point_slab.total;
   result.count_reason = count_reason(points);
@@ -372,8 +428,18 @@ void Mesher::go_on_from(const SavedRun& saved) {
 }
 
 MeshResult Mesher::run() {
-  return Run(implementation_->run, implementation_->observer, implementation_->checkpoints, implementation_->saved)
-      .make();
+  const Implementation& its = *implementation_;
+  std::optional<MeshResult> result;
+  std::vector<sizing::LeastSize> raised;
+  const int trials = its.run.options.shortest_edge ? MeshingRules::most_trials : 1;
+  for (int trial = 1; !result; ++trial) { // snapshots and checkpoints are those of the first trial
+    const bool first = trial == 1;
+    Run run(its.run, first ? its.observer : SnapshotObserver{}, first ? its.checkpoints : nullptr,
+            first ? its.saved : nullptr, std::move(raised));
+    result = run.make(trial < trials);
+    raised = run.take_raised();
+  }
+  return std::move(*result);
 }
 
 double Mesher::expected_points() const {

@@ -32,7 +32,7 @@ public:
   const Stage& stage() const { return stage_; }
   std::span<const sizing::SizeLimit> limits() const { return scheme_.limits(); }
   double factor(const LayoutContext& layout) const {
-    return layout.relative_size.is_uniform() ? stage_.asked_size().size({}) / layout.relative_size.size({})
+    return layout.relative_size.is_uniform() ? stage_.growing_size().size({}) / layout.relative_size.size({})
                                              : scheme_.factor();
   }
   bool keeps_all() const {

@@ -12,12 +12,16 @@ namespace {
 /// The shortest edges are shorter than h by about this factor.
 constexpr double shortest_share = 0.6;
 
-/// The smallest h, so that edges are as long as was promised.
+/// The smallest h with edges as long as was promised; 0 without a promise.
+double least_for_edges(const MeshOptions& options) {
+  return std::fmin(options.shortest_edge.value_or(0) / shortest_share, options.max_size.value_or(INFINITY));
+}
+
+/// The smallest h that is asked for.
 std::optional<double> least_size(const MeshOptions& options) {
   if (!options.shortest_edge)
     return options.min_size;
-  const double least = *options.shortest_edge / shortest_share;
-  return std::fmax(options.min_size.value_or(0), options.max_size ? std::fmin(least, *options.max_size) : least);
+  return std::fmax(options.min_size.value_or(0), least_for_edges(options));
 }
 
 } // namespace
@@ -34,7 +38,8 @@ fitting::FitOptions fit_options(const MeshOptions& options, const sizing::SizeFi
           .features = options.features,
           .min_size = least_size(options),
           .max_size = options.max_size,
-          .least_lowered = options.shortest_edge ? least_size(options).value_or(0) : 0};
+          .least_lowered = least_for_edges(options),
+          .shortest_edge = options.shortest_edge.value_or(0)};
 }
 
 start::StartOptions start_options(const MeshOptions& options) {

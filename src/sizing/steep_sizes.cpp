@@ -38,6 +38,8 @@ constexpr std::array<Vec2, 8> directions{{{1, 0},
 // [rad] Largest turn between two points that replace an arc in the test of what lies inside.
 constexpr double arc_step = pi / 64;
 
+constexpr std::ptrdiff_t pieces_in_a_row = 64; // by one thread, along which places have about equal distances
+
 /// The chords of the boundary, with arcs replaced by polygons.
 std::vector<geometry::Segment> chords_of(const geometry::Boundary& boundary, const geometry::Lattice& lattice) {
   std::vector<geometry::Segment> chords;
@@ -54,20 +56,59 @@ std::vector<geometry::Segment> chords_of(const geometry::Boundary& boundary, con
   return chords;
 }
 
+/// Walks along consecutive pieces of the boundary in steps of front_step sizes.
+class BoundaryWalk {
+public:
+  /// The references must outlive the object. @param most_steps number of steps after which the walk ends
+  BoundaryWalk(const ScaledSize& asked, const geometry::Periods& periods, double gradation, double most_steps,
+               std::vector<SizeLimit>& places)
+      : asked_(asked), periods_(periods), gradation_(gradation), steps_left_(most_steps), places_(places) {}
+
+  /// Lists the places of the piece from which the size grows too fast to the left, which is the inside.
+  void pass(const geometry::Piece& piece) {
+    const double length = piece.length();
+    for (; ahead_ < length && steps_left_ > 0; --steps_left_) {
+      const Vec2 p = piece.point(ahead_), along = piece.tangent(ahead_);
+      const double h = size(p);
+      if (!is_valid_size(h)) // the layout of the boundary reports it
+        return;
+      const double step = Rules::front_step * h, inwards = size(p + step * Vec2{-along.y, along.x});
+      if (is_valid_size(inwards) && inwards > h + (1 + Rules::gentle_excess) * gradation_ * step)
+        places_.push_back({periods_.wrap(p), h});
+      ahead_ += step;
+    }
+    ahead_ = std::fmax(0, ahead_ - length);
+  }
+
+private:
+  double size(Vec2 p) const { return asked_.size(periods_.wrap(p)); }
+
+  const ScaledSize& asked_;
+  const geometry::Periods& periods_;
+  double gradation_, steps_left_;
+  std::vector<SizeLimit>& places_;
+  double ahead_ = 0; // way from the start of the piece to the next place
+};
+
 } // namespace
 
 /// The places that were found so far, and the size that they allow.
 class SteepSizes::Front {
 public:
-  Front(SteepSizes& owner, const ScaledSize& asked, double gradation)
-      : owner_(owner), asked_(asked), gradation_(gradation) {}
+  Front(SteepSizes& owner, const ScaledSize& asked, double gradation, double most_places)
+      : owner_(owner), asked_(asked), gradation_(gradation), most_places_(most_places) {}
+
+  /// Adds places that are known to lie on the front, unless others cover them. @pre they come with ascending sizes
+  void add_known(const std::vector<SizeLimit>& places);
 
   /// Follows the front from a seed, unless the places that were found cover it. @pre seeds come with ascending sizes
   void follow(const Seed& seed);
   std::vector<SizeLimit> take() { return std::move(found_); }
-  bool is_full() const { return found_.size() >= Rules::most_steep_places; }
+  /// Are there more places than the mesh may have?
+  bool is_overfull() const { return static_cast<double>(found_.size()) >= most_places_; }
 
 private:
+  bool is_full() const { return is_overfull() || found_.size() - known_ >= Rules::most_steep_places; }
   double size(Vec2 p) const {
     const double h = asked_.size(owner_.boundary_.periods.wrap(p));
     return is_valid_size(h) && owner_.inside(p) ? h : huge;
@@ -105,8 +146,9 @@ private:
 
   SteepSizes& owner_;
   const ScaledSize& asked_;
-  double gradation_;
+  double gradation_, most_places_;
   std::vector<SizeLimit> found_;
+  std::size_t known_ = 0;    // number of places that add_known() has added
   std::size_t followed_ = 0; // number of places from which the front was followed
   std::unordered_map<Key, std::vector<std::size_t>, Hash>
       nearby_;              // indices into found_, by the cell at the level of their size
@@ -236,6 +278,19 @@ void SteepSizes::Front::flood() {
   }
 }
 
+void SteepSizes::Front::add_known(const std::vector<SizeLimit>& places) {
+  for (const SizeLimit& at : places) {
+    if (is_overfull())
+      break;
+    if (found_.size() > 2 * in_tree_ + Rules::few_steep_places)
+      renew_tree();
+    if (adds(at))
+      add(at);
+  }
+  known_ = followed_ = found_.size();
+  renew_tree();
+}
+
 void SteepSizes::Front::follow(const Seed& seed) {
   SizeLimit at{seed.low, seed.size};
   if (is_full() || seed.size > allowed(at) * (1 - Rules::covered_error))
@@ -334,7 +389,26 @@ bool SteepSizes::inside(Vec2 p) const {
   return !segments_ || segments_->inside(lattice_.snap(p));
 }
 
-SteepSizes::Limits SteepSizes::limits(const ScaledSize& asked, double gradation) {
+/// Places on the boundary from which the size grows too fast towards the inside, with ascending sizes. All ranks return
+/// the same places. Collective.
+std::vector<SizeLimit> SteepSizes::along_boundary(const ScaledSize& asked, double gradation, double most_places) const {
+  std::vector<SizeLimit> places;
+  for (const geometry::Loop& loop : boundary_.loops) {
+    const std::ptrdiff_t pieces = std::ssize(loop.pieces), runs = (pieces + pieces_in_a_row - 1) / pieces_in_a_row;
+    const std::vector<SizeLimit> of_loop =
+        comm::gather_shared<SizeLimit>(comm_, runs, 1, [&](std::ptrdiff_t run, std::vector<SizeLimit>& list) {
+          BoundaryWalk walk(asked, boundary_.periods, gradation, most_places, list);
+          for (std::ptrdiff_t k = run * pieces_in_a_row; k < std::min(pieces, (run + 1) * pieces_in_a_row); ++k)
+            walk.pass(loop.pieces[static_cast<std::size_t>(k)]);
+        });
+    places.insert(places.end(), of_loop.begin(), of_loop.end());
+  }
+  std::stable_sort(places.begin(), places.end(),
+                   [](const SizeLimit& a, const SizeLimit& b) { return a.size < b.size; });
+  return places;
+}
+
+SteepSizes::Limits SteepSizes::limits(const ScaledSize& asked, double gradation, double most_places) {
   std::vector<Seed> found = seeds(asked, gradation);
   Limits result;
   if (!found.empty() && !segments_ && !boundary_.periods.any()) { // of loops that wind around, no grid knows the inside
@@ -344,14 +418,17 @@ SteepSizes::Limits SteepSizes::limits(const ScaledSize& asked, double gradation)
   if (found.empty())
     return result;
   result.gradation = Rules::limited_slope * gradation;
+  const std::vector<SizeLimit> known = along_boundary(asked, result.gradation, most_places);
   comm::run_agreed(comm_, [&] { // the same on all ranks; a size of the user may throw on one of them
     std::stable_sort(found.begin(), found.end(), [](const Seed& a, const Seed& b) { return a.size < b.size; });
-    Front front(*this, asked, result.gradation);
+    Front front(*this, asked, result.gradation, most_places);
+    front.add_known(known);
     for (const Seed& seed : found) {
       if (seed.slope > result.steepest.slope && inside(seed.high))
         result.steepest = {seed.low, seed.slope};
       front.follow(seed);
     }
+    result.is_full = front.is_overfull();
     result.limits = front.take();
   });
   return result;

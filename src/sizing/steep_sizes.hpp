@@ -19,8 +19,10 @@ namespace trime::sizing {
 /// over all places y of h(y) + K |x - y|. Only places y at the lower edge of a steep part of h matter: at all others, h
 /// itself is the minimum. This class samples h on a grid over the shape with one random place in each cell, begins
 /// where two neighbouring samples differ too much, and follows the lower edge of each steep part from there. So it
-/// finds a band of small sizes that is far narrower than the cells, if one sample lies in it. (Persson, "Mesh size
-/// functions for implicit geometries and PDE-based gradient limiting", 2006, solves the same problem on a whole grid.)
+/// finds a band of small sizes that is far narrower than the cells, if one sample lies in it. Sizes that grow too fast
+/// with the distance from the boundary are limited from places along the boundary, which need no search. (Persson,
+/// "Mesh size functions for implicit geometries and PDE-based gradient limiting", 2006, solves the same problem on a
+/// whole grid.)
 class SteepSizes {
 public:
   /// Samples the field; ranks and threads share the work. Cost: one evaluation of the field for each sample.
@@ -41,13 +43,16 @@ public:
     double gradation = 0;          ///< growth from these places: a little less than what is allowed
     std::vector<SizeLimit> limits; ///< places and sizes; empty if the size is nowhere too steep
     Steepest steepest{{}, 0};      ///< steepest pair of neighbouring samples in the shape
+    bool is_full = false;          ///< true if there are more than the allowed number of places; some are missing
   };
   /// @brief Returns the limits for a size; the same bits for any number of ranks and threads. Collective. Cost: about
   /// 200 evaluations of the field for each limit; there is about one limit for each 0.35 h along the edges of steep
   /// parts, and at most SizingRules::most_steep_places. Each rank follows all edges.
   /// @throws what the field throws, on all ranks together
   /// @param asked the field times a factor
-  Limits limits(const ScaledSize& asked, double gradation);
+  /// @param most_places number of places at which the search ends, because a mesh with that size would have too many
+  /// points
+  Limits limits(const ScaledSize& asked, double gradation, double most_places);
 
 private:
   struct Sample {
@@ -65,6 +70,7 @@ private:
   std::optional<Seed> seed_at(int i, int j, const ScaledSize& asked, double gradation) const;
   std::vector<Seed> seeds(const ScaledSize& asked, double gradation) const;
   bool inside(geometry::Vec2 p) const;
+  std::vector<SizeLimit> along_boundary(const ScaledSize& asked, double gradation, double most_places) const;
 
   const comm::Communicator& comm_;
   const SizeField& relative_;

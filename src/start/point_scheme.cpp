@@ -128,15 +128,14 @@ PointScheme::First PointScheme::first_of_scheme() {
 }
 
 PointScheme::First PointScheme::first_of_lattice() {
+  if (!fit_.context().raised.empty())
+    return first_of_graded_size();
   std::variant<fitting::LatticeFit, fitting::TooFewPoints> found = fit_.find_lattice();
   if (fitting::TooFewPoints* few = std::get_if<fitting::TooFewPoints>(&found))
     return std::move(*few);
   fitting::LatticeFit& fit = std::get<fitting::LatticeFit>(found);
-  if (given_.options.features.refine_narrow && fit_.needs_lowering(fit.stage)) {
-    fit_.lower_uniform();
-    choose_divisions();
-    return first_of_divisions();
-  }
+  if ((given_.options.features.refine_narrow && fit_.needs_lowering(fit.stage)) || fit_.raise_at_short_edges(fit.stage))
+    return first_of_graded_size();
   shortage_ = std::move(fit.shortage);
   const auto time = given_.timers.scope("start");
   const placing::LatticeStart start(given_.given_boundary, *fit.stage.guard, given_.lattice);
@@ -146,6 +145,13 @@ PointScheme::First PointScheme::first_of_lattice() {
                                static_cast<double>(given_.comm.sum(fit.runs.count()) + fit.stage.placed_first()));
   fit_.place_sites(fit.stage, start.sites(fit.runs, static_cast<std::size_t>(fit.stage.placed_first())));
   return std::move(fit.stage);
+}
+
+/// A uniform size that is not the same at all places.
+PointScheme::First PointScheme::first_of_graded_size() {
+  fit_.lower_uniform();
+  choose_divisions();
+  return first_of_divisions();
 }
 
 /// Returns the runs of this rank, after all of them are distributed evenly: the density gave only an estimate of their

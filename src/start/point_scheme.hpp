@@ -63,6 +63,8 @@ public:
   /// Returns the places where the boundary needs smaller triangles than the size that was asked for.
   /// @pre first() was called
   std::span<const sizing::SizeLimit> limits() const { return fit_.limits(); }
+  /// Returns where the size was raised, because edges would be too short there. @pre first() was called
+  const std::vector<sizing::LeastSize>& raised() const { return fit_.context().raised; }
   /// Returns where the size is limited because it grows too fast. @pre first() was called
   const fitting::SteepPlaces& steep() const { return fit_.steep(); }
   /// Returns the factor of a size that varies. @pre first() was called
@@ -84,6 +86,7 @@ private:
   double expected_points() const;
   First first_of_scheme();
   First first_of_lattice();
+  First first_of_graded_size();
   void share_runs(const placing::LatticeStart& start, fitting::LatticeFit& fit) const;
   First first_of_insertion();
   First first_of_divisions();

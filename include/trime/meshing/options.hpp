@@ -36,7 +36,8 @@ struct MeshOptions {
   /// Largest growth of h per unit of distance in the mesh as it is written, around narrow places, too. A steeper size
   /// is lowered around its small values. Empty: the size is used as it is, and grows by 0.2 around narrow places.
   std::optional<double> gradation;
-  /// A mesh with a shorter edge fails a check. Sizes are large enough for such edges, around narrow places, too.
+  /// A mesh with a shorter edge fails a check. Sizes are raised around places where edges would be shorter, and the
+  /// shape is simplified there; if that is not enough, the mesh is made again.
   std::optional<double> shortest_edge;
   boundary::FeatureOptions features; ///< which corners, islands and lakes the mesh keeps
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sizing/steep_sizes.hpp"
 
+#include "core/angle.hpp"
 #include "support/boundary_shapes.hpp"
 #include "trime/core/error.hpp"
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <functional>
 #include <utility>
@@ -36,7 +38,7 @@ struct Limited {
   double gradation;
   ScaledSize asked{field, 1};
   SteepSizes steep{world, field, boundary, testing::unit_lattice(), 10000};
-  SteepSizes::Limits found = steep.limits(asked, gradation);
+  SteepSizes::Limits found = steep.limits(asked, gradation, 1e6);
   const std::vector<SizeLimit>& limits = found.limits;
   LoweredSize lowered{asked, {{limits, found.gradation}}, {}};
 
@@ -80,6 +82,49 @@ TEST(SteepSizes, AKinkIsFollowedAlongItsLowestLine) {
   expect_cone(limited, 0.01, distance, 0.15);
 }
 
+/// A disc of many short edges, and a size that grows fast with the distance from its circle.
+struct FromTheCircle {
+  static constexpr int corners = 4000;
+  mutable std::atomic<int> evaluations = 0;
+  comm::Communicator world = comm::Communicator::world();
+  Given field{[this](Vec2 p) {
+    ++evaluations;
+    return 0.002 + 2 * std::fabs(0.4 - geometry::length(p - Vec2{0.5, 0.5}));
+  }};
+  geometry::Boundary boundary;
+  ScaledSize asked{field, 1};
+
+  FromTheCircle() {
+    std::vector<Vec2> ring;
+    for (int k = 0; k < corners; ++k)
+      ring.push_back({0.5 + 0.4 * std::cos(2 * pi * k / corners), 0.5 + 0.4 * std::sin(2 * pi * k / corners)});
+    boundary = testing::boundary_of({testing::polygon_loop(ring)});
+  }
+};
+
+TEST(SteepSizes, SizesThatGrowFromTheBoundaryNeedNoSearch) {
+  FromTheCircle given;
+  SteepSizes steep(given.world, given.field, given.boundary, testing::unit_lattice(), 1000);
+  given.evaluations = 0;
+  const SteepSizes::Limits found = steep.limits(given.asked, 0.2, 1e6);
+  EXPECT_FALSE(found.is_full);
+  EXPECT_LT(given.evaluations, 5 * static_cast<int>(found.limits.size())); // 200 along an edge that is followed
+  const LoweredSize lowered(given.asked, {{found.limits, found.gradation}}, {});
+  for (int k = 0; k < 400; ++k) {
+    const Vec2 p{std::fmod(0.5 + 0.618034 * k, 1), std::fmod(0.25 + 0.754878 * k, 1)};
+    const double distance = 0.4 - geometry::length(p - Vec2{0.5, 0.5});
+    if (distance > 0) {
+      EXPECT_NEAR(lowered.size(p) / (0.002 + found.gradation * distance), 1, 0.05) << p.x << " " << p.y;
+    }
+  }
+}
+
+TEST(SteepSizes, TheSearchEndsWhereAMeshWouldHaveTooManyPoints) {
+  FromTheCircle given;
+  SteepSizes steep(given.world, given.field, given.boundary, testing::unit_lattice(), 1000);
+  EXPECT_TRUE(steep.limits(given.asked, 0.2, 500).is_full);
+}
+
 TEST(SteepSizes, TheGrowthOfASmoothSizeIsLimited) {
   const Limited limited([](Vec2 p) { return 0.01 * std::exp(8 * p.x); }, 0.3);
   for (int k = 0; k < 400; ++k) {
@@ -96,7 +141,7 @@ TEST(SteepSizes, PlacesOutsideTheShapeDoNotCount) {
       {testing::polygon_loop({{0.5, 0}, {1, 0}, {1, 1}, {0.5, 1}, {0.5, 0.9}, {0.9, 0.5}, {0.5, 0.1}})});
   const comm::Communicator world = comm::Communicator::world();
   SteepSizes steep(world, field, boundary, testing::unit_lattice(), 10000);
-  EXPECT_TRUE(steep.limits(ScaledSize(field, 1), 0.3).limits.empty());
+  EXPECT_TRUE(steep.limits(ScaledSize(field, 1), 0.3, 1e6).limits.empty());
 }
 
 TEST(SteepSizes, AllRanksFindTheSameLimits) {
@@ -107,7 +152,8 @@ TEST(SteepSizes, AllRanksFindTheSameLimits) {
   SteepSizes shared(world, field, boundary, testing::unit_lattice(), 10000),
       alone(self, field, boundary, testing::unit_lattice(), 10000);
   const ScaledSize asked(field, 1);
-  const std::vector<SizeLimit> found = shared.limits(asked, 0.3).limits, expected = alone.limits(asked, 0.3).limits;
+  const std::vector<SizeLimit> found = shared.limits(asked, 0.3, 1e6).limits,
+                               expected = alone.limits(asked, 0.3, 1e6).limits;
   ASSERT_EQ(found.size(), expected.size());
   for (std::size_t k = 0; k < found.size(); ++k) {
     EXPECT_EQ(found[k].place, expected[k].place);
@@ -134,7 +180,7 @@ TEST(SteepSizes, TheSameFactorScalesTheSlope) {
   const geometry::Boundary boundary = square();
   const comm::Communicator world = comm::Communicator::world();
   SteepSizes steep(world, field, boundary, testing::unit_lattice(), 10000);
-  EXPECT_TRUE(steep.limits(ScaledSize(field, 0.5), 0.3).limits.empty());
+  EXPECT_TRUE(steep.limits(ScaledSize(field, 0.5), 0.3, 1e6).limits.empty());
 }
 
 } // namespace

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fitting/raised_places.hpp"
+
+#include "fitting/rules.hpp"
+
+#include <cmath>
+
+namespace trime::fitting {
+
+std::vector<sizing::LeastSize> raised_around(std::span<const geometry::ShortEdge> edges, const sites::Stage& stage,
+                                             const FitOptions& options) {
+  std::vector<sizing::LeastSize> places;
+  if (options.features.keep_all)
+    return places;
+  for (const geometry::ShortEdge& edge : edges) {
+    const double h = sizing::checked_size(stage.asked_size(), edge.middle);
+    const double most = std::fmin(RaisingRules::most_raised * stage.growing_size().size(edge.middle),
+                                  options.max_size.value_or(INFINITY));
+    if (const double raised = std::fmin(RaisingRules::step * h, most); raised > RaisingRules::least_step * h)
+      places.push_back({edge.middle, raised});
+  }
+  return places;
+}
+
+} // namespace trime::fitting
