@@ -35,6 +35,9 @@ MapSystem project_contours(const RunOptions& options, std::span<contours::Contou
 /// @throws the errors of project_contours
 void project_contour(contours::Contour& contour, const std::string& plane);
 
+/// Returns the name of the reference system for people: of a definition as WKT only the name inside.
+std::string name_of(const MapSystem& map);
+
 /// Returns longitude and latitude, in degrees, of a place in the mesh; nothing if PROJ does not know its reference
 /// system.
 std::optional<geometry::Vec2> on_earth(const MapSystem& map, geometry::Vec2 place);

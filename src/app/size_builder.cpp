@@ -78,12 +78,33 @@ BuiltSize expression_size(const RunOptions& options, const geometry::Domain& dom
   return size;
 }
 
+/// What a user can do if size_at has a name that no part of the boundary has.
+std::string advice_on_names(const RunOptions& options) {
+  std::string advice = "; write a list as 'coast 200, open sea 2000'";
+  for (const PartOptions& part : options.parts)
+    if (part.type == "contour" && part.attribute.empty())
+      return advice +
+             fmt::format("; 'attribute = FIELD' in [shape.{}] names the boundary after a field of a map", part.name);
+  return advice;
+}
+
+/// @throws ConfigError on all ranks if size_at has a name that no part of the boundary has
+void check_names(const RunOptions& options, const geometry::Domain& domain) {
+  try {
+    for (const sizing::NamedSize& named : options.sizing.size_at)
+      sizing::parts_named(named.name, domain.boundary().part_names);
+  } catch (const ConfigError& error) {
+    throw ConfigError(fmt::format("{}: {}{}", options.sizing.size_at_place, error.what(), advice_on_names(options)));
+  }
+}
+
 /// Lowers the size on the parts of the boundary that the key size_at names. All ranks get the same size, or the same
 /// error.
 void lower_at_boundary(const RunOptions& options, const geometry::Domain& domain, BuiltSize& size) {
   const SizingOptions& sizing = options.sizing;
   const double gradation = options.mesh.gradation.value();
   size.base = std::move(size.field);
+  check_names(options, domain);
   try {
     size.field = std::make_unique<const sizing::BoundarySize>(*size.base, domain.boundary(), sizing.size_at, gradation,
                                                               images_of(domain));

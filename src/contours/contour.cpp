@@ -264,6 +264,7 @@ public:
     visit(contour.crs);
     visit(contour.is_map);
     visit(contour.in_degrees);
+    visit(contour.joins_date_line);
     visit(contour.faults);
   }
   template <class Visitor, class One>

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <set>
 #include <span>
 #include <utility>
@@ -76,13 +77,16 @@ public:
       : contour_(contour), normalization_(normalization), frame_(frame), touches_(touches), faults_(contour.faults) {}
 
   Polygon make(std::vector<std::string>& warnings) {
+    check_date_line();
     for (const contours::ContourRing& ring : contour_.rings)
       add_ring(ring, warnings);
     std::vector<std::string> notes;
+    if (touches_.dissolve)
+      list_crossings_in_polygons();
     if (touches_.dissolve || rings_.empty())
       check_faults();
     if (touches_.dissolve)
-      unite(notes);
+      unite(notes, warnings);
     for (const RepeatedRing& ring : drop_repeated(rings_))
       warnings.push_back(fmt::format("{}: the ring that starts here was given before, at {}; it is used once{}",
                                      where(contour_, ring.line), line_or_feature(contour_, ring.first_line),
@@ -116,16 +120,19 @@ public:
 private:
   void add_ring(const contours::ContourRing& ring, std::vector<std::string>& warnings);
   void add_checked(contours::ContourRing ring);
+  void check_date_line() const;
   void check_faults() const;
-  void unite(std::vector<std::string>& notes);
+  void unite(std::vector<std::string>& notes, std::vector<std::string>& warnings);
   void separate(const std::vector<SegmentPair>& meetings, SegmentGrid& grid, std::vector<std::string>& warnings);
   void tell_touches(const std::vector<RingTouch>& touches, double gap, std::vector<std::string>& warnings) const;
   void tell_pieces(const Polygon& polygon, std::vector<std::string>& warnings) const;
   std::string other_edge(const std::array<int, 2>& lines) const;
   void repair_self_meetings(const std::vector<SegmentPair>& meetings);
-  void list_meetings(const SegmentGrid& grid, std::span<const SegmentPair> pairs, bool within_rings);
+  void add_seams(const contours::RepairedRing& repaired, const contours::ContourRing& ring);
+  void list_meetings(const SegmentGrid& grid, std::span<const SegmentPair> pairs);
+  void list_crossings_in_polygons();
   void explain(const std::vector<SegmentPair>& meetings);
-  bool list_seams_in_file();
+  void list_seams_in_file();
   std::pair<std::size_t, int> ring_and_line_of(LocalIndex segment) const;
   contours::Fault fault_of(const SegmentGrid& grid, const SegmentPair& pair) const;
   contours::PlaceText place_text() const;
@@ -138,6 +145,7 @@ private:
   const TouchOptions& touches_;
   std::vector<LatticeRing> rings_;
   contours::FaultList faults_;
+  std::set<int> with_seams_; // first lines of the rings for which something without area is listed
 };
 
 /// Returns the markers of all segments of the rings; empty if no segment has one.
@@ -231,16 +239,28 @@ void Placement::add_checked(contours::ContourRing ring) {
     return take(ring);
   contours::RepairedRing repaired = contours::repair_ring(ring, ShapeRules::on_edge * frame_.step());
   if (!repaired.seams.empty())
-    contours::add_faults(faults_, repaired, ring, place_text());
+    add_seams(repaired, ring);
   for (contours::ContourRing& left : repaired.rings)
     take(left);
+}
+
+void Placement::add_seams(const contours::RepairedRing& repaired, const contours::ContourRing& ring) {
+  contours::add_faults(faults_, repaired, ring, place_text());
+  with_seams_.insert(ring.lines[0]);
+}
+
+/// Lines that end at both sides of the date line are a ring only if they are projected.
+void Placement::check_date_line() const {
+  if (contour_.joins_date_line && !contour_.in_degrees)
+    throw GeometryError(fmt::format("{}: lines end at longitudes 180 and -180; set 'projection = auto' in [shape], "
+                                    "which joins both sides",
+                                    contour_.source));
 }
 
 /// Throws if there are faults that are not repaired, or if nothing is left.
 void Placement::check_faults() const {
   contours::check_faults(faults_, contour_.source,
-                         rings_.empty() && touches_.faults == contours::Faults::repair ? contours::Faults::refuse
-                                                                                       : touches_.faults);
+                         rings_.empty() ? contours::Faults::refuse : touches_.faults); // a repair would leave nothing
 }
 
 contours::PlaceText Placement::place_text() const {
@@ -248,16 +268,23 @@ contours::PlaceText Placement::place_text() const {
 }
 
 /// Replaces the rings by those around the union of all polygons.
-void Placement::unite(std::vector<std::string>& notes) {
+void Placement::unite(std::vector<std::string>& notes, std::vector<std::string>& warnings) {
   Dissolved dissolved =
       dissolve(rings_, frame_, {contour_.source, touches_.widest_gap, [this](Vec2 p) { return in_file(p); }});
   rings_ = std::move(dissolved.rings);
   const double scale = normalization_.scale;
   notes.push_back(
-      fmt::format("{}: {} polygon{} united into an outline of {} rings; they share borders of length {:.4g} "
+      fmt::format("{}: {} polygon{} united into an outline of {} ring{}; they share borders of length {:.4g} "
                   "and overlap by an area of {:.4g}",
                   contour_.source, dissolved.polygons, dissolved.polygons == 1 ? " is" : "s are", rings_.size(),
-                  dissolved.shared_length / scale, std::fmax(0, dissolved.overlap) / (scale * scale)));
+                  rings_.size() == 1 ? "" : "s", dissolved.shared_length / scale,
+                  std::fmax(0, dissolved.overlap) / (scale * scale)));
+  if (const std::size_t lost = dissolved.covered.size(); lost > 0)
+    warnings.push_back(fmt::format("{}: this polygon lies inside of others and disappears in their union{}; if it is a "
+                                   "hole, make it a hole of the polygon around it, or a separate part to be subtracted "
+                                   "in 'geometry'",
+                                   where(contour_, dissolved.covered[0]),
+                                   lost == 1 ? "" : fmt::format(", and so do {} more", lost - 1)));
   if (dissolved.gaps > 0)
     notes.push_back(fmt::format("{}: {} gap{} between polygons, narrower than {:.3g} and {:.4g} in area, {} closed",
                                 contour_.source, dissolved.gaps, dissolved.gaps == 1 ? "" : "s",
@@ -291,31 +318,34 @@ void Placement::separate(const std::vector<SegmentPair>& meetings, SegmentGrid& 
 /// it. A repair has left out before what has no area, so that only meetings are listed then. Afterwards there are
 /// faults for which check_faults throws, because the rings are no longer those of the contour.
 void Placement::explain(const std::vector<SegmentPair>& meetings) {
-  bool within_rings = true;
   if (touches_.faults != contours::Faults::repair) {
-    const std::uint64_t before = faults_.repairable;
     repair_self_meetings(meetings);
-    if (faults_.repairable == before)
-      within_rings = !list_seams_in_file();
+    list_seams_in_file();
   }
   const SegmentGrid grid(segments_of(rings_));
   part_touches(rings_, find_meetings(rings_, grid), grid, frame_,
                {touches_.outside, false, ShapeRules::touch_gap * frame_.step()});
   const SegmentGrid separated(segments_of(rings_));
-  list_meetings(separated, find_meetings(rings_, separated), within_rings);
+  list_meetings(separated, find_meetings(rings_, separated));
 }
 
-/// Adds what has no area in the file, where a projection has moved two edges apart that cancel each other there.
-/// Returns whether there is something.
-bool Placement::list_seams_in_file() {
-  contours::Contour in_file = contour_;
-  std::erase_if(in_file.rings, [](const contours::ContourRing& ring) { return ring.in_file.empty(); });
-  for (contours::ContourRing& ring : in_file.rings)
-    ring.points = std::exchange(ring.in_file, {});
-  in_file.faults = {};
-  contours::repair_rings(in_file);
-  contours::add_faults(faults_, in_file.faults);
-  return !in_file.faults.empty();
+/// Adds what has no area in the file, where a projection has moved two edges apart that cancel each other there. Rings
+/// for which something without area is listed already are left out.
+void Placement::list_seams_in_file() {
+  for (const contours::ContourRing& ring : contour_.rings) {
+    if (ring.in_file.empty() || with_seams_.count(ring.lines[0]) > 0)
+      continue;
+    contours::Contour one;
+    one.source = contour_.source;
+    one.features = contour_.features;
+    one.is_map = contour_.is_map;
+    one.rings.push_back(ring);
+    one.rings[0].points = std::exchange(one.rings[0].in_file, {});
+    contours::repair_rings(one);
+    contours::add_faults(faults_, one.faults);
+    if (!one.faults.empty())
+      with_seams_.insert(ring.lines[0]);
+  }
 }
 
 /// Repairs rings that meet themselves; what they lose is a fault.
@@ -333,20 +363,39 @@ void Placement::repair_self_meetings(const std::vector<SegmentPair>& meetings) {
     const contours::ContourRing ring{given[k].points, given[k].lines, given[k].markers, {}, given[k].polygon};
     contours::RepairedRing repaired = contours::repair_ring(ring, ShapeRules::on_edge * frame_.step());
     if (!repaired.seams.empty())
-      contours::add_faults(faults_, repaired, ring, place_text());
+      add_seams(repaired, ring);
     for (contours::ContourRing& left : repaired.rings)
       rings_.push_back({std::move(left.points), std::move(left.lines), std::move(left.markers), left.polygon});
   }
 }
 
-/// Adds a fault for each pair of rings that meet; rings that meet themselves count if `within_rings`.
-void Placement::list_meetings(const SegmentGrid& grid, std::span<const SegmentPair> pairs, bool within_rings) {
+/// Adds a fault for each pair of rings that meet, and for each ring that meets itself, unless something without area is
+/// listed for this ring, which may be the reason.
+void Placement::list_meetings(const SegmentGrid& grid, std::span<const SegmentPair> pairs) {
   std::set<std::pair<std::size_t, std::size_t>> seen;
   for (const SegmentPair& pair : pairs) {
     const std::size_t first = ring_and_line_of(pair[0]).first, second = ring_and_line_of(pair[1]).first;
-    if ((first != second || within_rings) && seen.insert({first, second}).second)
+    if ((first != second || with_seams_.count(rings_[first].lines[0]) == 0) && seen.insert({first, second}).second)
       contours::add_fault(faults_, contours::HasArea::yes, [&] { return fault_of(grid, pair); });
   }
+}
+
+/// Lists the crossings within each polygon, which the even-odd rule would turn into holes of the union.
+void Placement::list_crossings_in_polygons() {
+  std::map<int, std::vector<LatticeRing>> by_polygon;
+  for (const LatticeRing& ring : rings_)
+    by_polygon[ring.polygon].push_back(ring);
+  std::vector<LatticeRing> all = std::exchange(rings_, {});
+  for (auto& [number, rings] : by_polygon) {
+    rings_ = std::move(rings);
+    const SegmentGrid grid(segments_of(rings_));
+    std::vector<SegmentPair> meetings = find_meetings(rings_, grid);
+    std::erase_if(meetings, [&](const SegmentPair& pair) {
+      return meeting_of(grid.segments()[at(pair[0])], grid.segments()[at(pair[1])]) != Meeting::crossing;
+    });
+    list_meetings(grid, meetings);
+  }
+  rings_ = std::move(all);
 }
 
 std::pair<std::size_t, int> Placement::ring_and_line_of(LocalIndex segment) const {
@@ -417,6 +466,7 @@ contours::Fault Placement::fault_of(const SegmentGrid& grid, const SegmentPair& 
             "sides"
       : is_map && same        ? "a ring must neither cross nor touch itself; ogr2ogr -makevalid may repair it"
       : is_map && one_polygon ? "rings of one polygon must not cross; ogr2ogr -makevalid may repair it"
+      : touches_.dissolve     ? "closed lines form one polygon together and must not cross; make polygons of them"
       : is_map ? "polygons of a map must neither overlap nor share borders; set 'overlap = union' in the "
                  "section of this contour to unite them"
                : remedy_of_lines(same, crossing);
