@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/map_projection.hpp"
 
-#include "app/straight_edges.hpp"
 #include "contours/date_line.hpp"
 #include "contours/map_features.hpp"
 #include "core/quoted.hpp"
 #include "projection/projection.hpp"
+#include "projection/straight_edges.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
@@ -184,7 +184,7 @@ void warn_of_distortion(std::span<const Contour> contours, const std::string& pl
       plane, worst.most, worst.place.x, worst.place.y, (worst.place.y < 0 ? 32700 : 32600) + zone, zone);
 }
 
-void tell_of_divided(const DividedEdges& divided, Log& log) {
+void tell_of_divided(const projection::DividedEdges& divided, Log& log) {
   if (divided.edges > 0)
     log.info("{} long edge{} of the contours {} divided by {} more vertices: edges are straight in the coordinates of "
              "their files, and {} up to {:.3g} away from that line in the plane",
@@ -263,7 +263,7 @@ MapSystem project_contours(const RunOptions& options, std::span<Contour> contour
         project_contour(contour, map.crs);
       }
     map.well_known_text = projection::well_known_text(map.crs);
-    tell_of_divided(divide_long_edges(contours, map.crs), log);
+    tell_of_divided(projection::divide_long_edges(contours, map.crs), log);
     if (options.projection != "auto")
       warn_of_distortion(contours, map.crs, log);
   } catch (const ConfigError& error) {

@@ -78,6 +78,22 @@ BuiltSize expression_size(const RunOptions& options, const geometry::Domain& dom
   return size;
 }
 
+/// Sizes in another unit than the coordinates, such as degrees in a plane of metres, may ask for an absurd number of
+/// points, and counting these would take hours.
+/// @throws ConfigError on all ranks if even the largest size asks for too many points
+void check_largest_size(const RunOptions& options, const geometry::Domain& domain) {
+  if (!options.mesh.absolute_sizes || !options.mesh.max_size)
+    return;
+  const double largest = *options.mesh.max_size, area = domain.boundary().area;
+  const double least_points = area / (0.5 * std::sqrt(3.0) * largest * largest);
+  if (!(least_points <= most_points))
+    throw ConfigError(fmt::format(
+        "'max_size = {:g}' in [sizing] asks for {} points in a shape of area {:.3g}; at most "
+        "{:.0e} are possible. Sizes have the unit of the coordinates{}; use larger sizes",
+        largest, std::isfinite(least_points) ? fmt::format("{:.2g} or more", least_points) : "far too many", area,
+        most_points, options.projection.empty() ? "" : ", which are projected into a plane, usually metres"));
+}
+
 /// What a user can do if size_at has a name that no part of the boundary has.
 std::string advice_on_names(const RunOptions& options) {
   std::string advice = "; write a list as 'coast 200, open sea 2000'";
@@ -119,6 +135,7 @@ void lower_at_boundary(const RunOptions& options, const geometry::Domain& domain
 } // namespace
 
 BuiltSize build_size(const RunOptions& options, const geometry::Domain& domain, const comm::Communicator& comm) {
+  check_largest_size(options, domain);
   BuiltSize size;
   if (options.sizing.type == "automatic") {
     size = automatic_size(options, domain, comm);

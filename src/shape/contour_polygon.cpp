@@ -5,13 +5,13 @@
 #include "contours/map_features.hpp"
 #include "contours/ring_repair.hpp"
 #include "geometry/predicates.hpp"
+#include "shape/contour_messages.hpp"
 #include "shape/dissolve.hpp"
 #include "shape/lattice_rings.hpp"
 #include "shape/rules.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -24,8 +24,6 @@ namespace {
 
 using contours::line_or_feature;
 using contours::where;
-using geometry::Box;
-using geometry::cross;
 using geometry::dot;
 using geometry::Frame;
 using geometry::orient2d;
@@ -33,30 +31,12 @@ using geometry::Segment;
 using geometry::SegmentGrid;
 using geometry::Vec2;
 
-constexpr std::size_t most_told = 5; // warnings of a kind
-
-bool in_box_of(const Segment& s, Vec2 p) {
-  return p.x >= std::fmin(s.a.x, s.b.x) && p.x <= std::fmax(s.a.x, s.b.x) && p.y >= std::fmin(s.a.y, s.b.y) &&
-         p.y <= std::fmax(s.a.y, s.b.y);
-}
-
-/// A point that both segments have, to within rounding; for messages only.
-Vec2 meeting_point(const Segment& s, const Segment& t) {
-  const Vec2 d = s.b - s.a, e = t.b - t.a;
-  const double determinant = cross(d, e);
-  if (determinant == 0)
-    return in_box_of(s, t.a) ? t.a : in_box_of(s, t.b) ? t.b : s.a;
-  return s.a + (cross(t.a - s.a, e) / determinant) * d;
-}
-
 bool is_collinear(const std::vector<Vec2>& p) {
   for (std::size_t k = 2; k < p.size(); ++k)
     if (orient2d(p[0], p[1], p[k]) != 0)
       return false;
   return true;
 }
-
-constexpr double half_turn = 180; // [degrees] an edge that is wider leads across the date line
 
 /// Does the ring turn straight back at a vertex?
 bool has_spike(const std::vector<Vec2>& p) {
@@ -74,7 +54,8 @@ class Placement {
 public:
   Placement(const contours::Contour& contour, const contours::Normalization& normalization, const Frame& frame,
             const TouchOptions& touches)
-      : contour_(contour), normalization_(normalization), frame_(frame), touches_(touches), faults_(contour.faults) {}
+      : contour_(contour), normalization_(normalization), messages_(contour, normalization), frame_(frame),
+        touches_(touches), faults_(contour.faults) {}
 
   Polygon make(std::vector<std::string>& warnings) {
     check_date_line();
@@ -111,7 +92,7 @@ public:
     polygon.marker_names = contour_.marker_names;
     polygon.notes = std::move(notes);
     orient(polygon);
-    tell_pieces(polygon, warnings);
+    messages_.tell_pieces(polygon, rings_, warnings);
     return polygon;
   }
 
@@ -124,23 +105,17 @@ private:
   void check_faults() const;
   void unite(std::vector<std::string>& notes, std::vector<std::string>& warnings);
   void separate(const std::vector<SegmentPair>& meetings, SegmentGrid& grid, std::vector<std::string>& warnings);
-  void tell_touches(const std::vector<RingTouch>& touches, double gap, std::vector<std::string>& warnings) const;
-  void tell_pieces(const Polygon& polygon, std::vector<std::string>& warnings) const;
-  std::string other_edge(const std::array<int, 2>& lines) const;
   void repair_self_meetings(const std::vector<SegmentPair>& meetings);
   void add_seams(const contours::RepairedRing& repaired, const contours::ContourRing& ring);
   void list_meetings(const SegmentGrid& grid, std::span<const SegmentPair> pairs);
   void list_crossings_in_polygons();
   void explain(const std::vector<SegmentPair>& meetings);
   void list_seams_in_file();
-  std::pair<std::size_t, int> ring_and_line_of(LocalIndex segment) const;
-  contours::Fault fault_of(const SegmentGrid& grid, const SegmentPair& pair) const;
-  contours::PlaceText place_text() const;
   std::vector<int> markers_of_segments() const;
-  std::string in_file(Vec2 p) const;
 
   const contours::Contour& contour_;
   const contours::Normalization& normalization_;
+  const ContourMessages messages_;
   const Frame& frame_;
   const TouchOptions& touches_;
   std::vector<LatticeRing> rings_;
@@ -161,26 +136,6 @@ std::vector<int> Placement::markers_of_segments() const {
   if (std::all_of(markers.begin(), markers.end(), [](int marker) { return marker == 0; }))
     return {};
   return markers;
-}
-
-/// A place in the coordinates of the file; where these are projected, that of the nearest place on an edge. O(vertices)
-std::string Placement::in_file(Vec2 p) const {
-  Vec2 original = normalization_.undo(p);
-  double least = HUGE_VAL;
-  for (const contours::ContourRing& ring : contour_.rings)
-    for (std::size_t k = 0; k < ring.in_file.size(); ++k) {
-      const std::size_t next = k + 1 == ring.in_file.size() ? 0 : k + 1;
-      const Vec2 a = normalization_.apply(ring.points[k]), d = normalization_.apply(ring.points[next]) - a;
-      const double share = squared_length(d) > 0 ? std::clamp(dot(p - a, d) / squared_length(d), 0.0, 1.0) : 0;
-      if (const double distance = squared_length(a + share * d - p); distance < least) {
-        least = distance;
-        const Vec2 along = ring.in_file[next] - ring.in_file[k];
-        const bool wraps = contour_.in_degrees && std::fabs(along.x) > half_turn;
-        original = wraps ? ring.in_file[share < 0.5 ? k : next] : ring.in_file[k] + share * along;
-      }
-    }
-  return contour_.in_degrees ? fmt::format("longitude {:.10g}, latitude {:.10g}", original.x, original.y)
-                             : fmt::format("({:.12g}, {:.12g})", original.x, original.y);
 }
 
 void Placement::add_ring(const contours::ContourRing& ring, std::vector<std::string>& warnings) {
@@ -229,9 +184,9 @@ void Placement::add_checked(contours::ContourRing ring) {
       return;
     }
     contours::add_fault(faults_, contours::HasArea::no, [&]() -> contours::Fault {
-      return {place_text().where(one.lines.empty() ? 0 : one.lines[0]),
+      return {messages_.place_text().where(one.lines.empty() ? 0 : one.lines[0]),
               fmt::format("the ring that starts here at {} encloses no area: all its vertices lie on one line",
-                          one.points.empty() ? "nowhere" : in_file(one.points[0])),
+                          one.points.empty() ? "nowhere" : messages_.in_file(one.points[0])),
               "remove the ring", "the ring is left out"};
     });
   };
@@ -245,7 +200,7 @@ void Placement::add_checked(contours::ContourRing ring) {
 }
 
 void Placement::add_seams(const contours::RepairedRing& repaired, const contours::ContourRing& ring) {
-  contours::add_faults(faults_, repaired, ring, place_text());
+  contours::add_faults(faults_, repaired, ring, messages_.place_text());
   with_seams_.insert(ring.lines[0]);
 }
 
@@ -263,14 +218,10 @@ void Placement::check_faults() const {
                          rings_.empty() ? contours::Faults::refuse : touches_.faults); // a repair would leave nothing
 }
 
-contours::PlaceText Placement::place_text() const {
-  return {[this](int line) { return where(contour_, line); }, [this](Vec2 p) { return in_file(p); }};
-}
-
 /// Replaces the rings by those around the union of all polygons.
 void Placement::unite(std::vector<std::string>& notes, std::vector<std::string>& warnings) {
   Dissolved dissolved =
-      dissolve(rings_, frame_, {contour_.source, touches_.widest_gap, [this](Vec2 p) { return in_file(p); }});
+      dissolve(rings_, frame_, {contour_.source, touches_.widest_gap, [this](Vec2 p) { return messages_.in_file(p); }});
   rings_ = std::move(dissolved.rings);
   const double scale = normalization_.scale;
   notes.push_back(
@@ -302,7 +253,7 @@ void Placement::separate(const std::vector<SegmentPair>& meetings, SegmentGrid& 
     const std::vector<RingTouch> touches = part_touches(rings_, meetings, grid, frame_, {touches_.outside, false, gap});
     SegmentGrid separated(segments_of(rings_));
     if (const std::vector<SegmentPair> left = find_meetings(rings_, separated); left.empty()) {
-      tell_touches(touches, gap, warnings);
+      messages_.tell_touches(touches, gap, warnings);
       grid = std::move(separated);
       return;
     } else if (gap == least) {
@@ -352,7 +303,7 @@ void Placement::list_seams_in_file() {
 void Placement::repair_self_meetings(const std::vector<SegmentPair>& meetings) {
   std::set<std::size_t> meeting_themselves;
   for (const auto& [i, j] : meetings)
-    if (const std::size_t ring = ring_and_line_of(i).first; ring == ring_and_line_of(j).first)
+    if (const std::size_t ring = ring_and_line_of(rings_, i).first; ring == ring_and_line_of(rings_, j).first)
       meeting_themselves.insert(ring);
   std::vector<LatticeRing> given = std::exchange(rings_, {});
   for (std::size_t k = 0; k < given.size(); ++k) {
@@ -374,9 +325,10 @@ void Placement::repair_self_meetings(const std::vector<SegmentPair>& meetings) {
 void Placement::list_meetings(const SegmentGrid& grid, std::span<const SegmentPair> pairs) {
   std::set<std::pair<std::size_t, std::size_t>> seen;
   for (const SegmentPair& pair : pairs) {
-    const std::size_t first = ring_and_line_of(pair[0]).first, second = ring_and_line_of(pair[1]).first;
+    const std::size_t first = ring_and_line_of(rings_, pair[0]).first, second = ring_and_line_of(rings_, pair[1]).first;
     if ((first != second || with_seams_.count(rings_[first].lines[0]) == 0) && seen.insert({first, second}).second)
-      contours::add_fault(faults_, contours::HasArea::yes, [&] { return fault_of(grid, pair); });
+      contours::add_fault(faults_, contours::HasArea::yes,
+                          [&] { return messages_.meeting(rings_, grid, pair, touches_.dissolve); });
   }
 }
 
@@ -396,117 +348,6 @@ void Placement::list_crossings_in_polygons() {
     list_meetings(grid, meetings);
   }
   rings_ = std::move(all);
-}
-
-std::pair<std::size_t, int> Placement::ring_and_line_of(LocalIndex segment) const {
-  auto index = at(segment);
-  std::size_t ring = 0;
-  while (index >= rings_[ring].points.size())
-    index -= rings_[ring++].points.size();
-  return {ring, rings_[ring].lines[index]};
-}
-
-void Placement::tell_touches(const std::vector<RingTouch>& touches, double gap,
-                             std::vector<std::string>& warnings) const {
-  const std::size_t told = std::min(touches.size(), most_told);
-  for (const RingTouch& touch : std::span(touches).first(told))
-    warnings.push_back(
-        fmt::format("{}: two rings touch at {} (the other one: {}); they are moved apart by "
-                    "{:.2g} there, so that no triangles meet across this point: nothing is connected there, whatever "
-                    "meshing.connect says",
-                    where(contour_, touch.line), in_file(touch.place), line_or_feature(contour_, touch.other_line),
-                    gap / normalization_.scale));
-  if (told < touches.size())
-    warnings.push_back(fmt::format("{}: rings touch in {} more places and are moved apart there", contour_.source,
-                                   touches.size() - told));
-}
-
-/// The second of two edges, for a message that begins with the line of the first.
-std::string Placement::other_edge(const std::array<int, 2>& lines) const {
-  if (lines[0] == lines[1])
-    return contour_.features.empty() ? "another edge" : "another edge of this feature";
-  return (contour_.features.empty() ? "the edge that starts at " : "an edge of ") + line_or_feature(contour_, lines[1]);
-}
-
-/// Returns whether a ring of longitudes and latitudes jumps from one side of the meridian of 180 degrees to the other.
-bool crosses_date_line(const std::vector<Vec2>& ring) {
-  constexpr double largest_longitude = 2 * half_turn, largest_latitude = 0.5 * half_turn;
-  bool jumps = false;
-  for (std::size_t k = 0; k < ring.size(); ++k) {
-    const Vec2 here = ring[k], next = ring[k + 1 < ring.size() ? k + 1 : 0];
-    if (std::fabs(here.x) > largest_longitude || std::fabs(here.y) > largest_latitude)
-      return false;
-    jumps = jumps || std::fabs(here.x - next.x) > half_turn;
-  }
-  return jumps;
-}
-
-/// Returns what a user can do where edges of a file of lines meet.
-/// @param same both edges belong to one ring
-const char* remedy_of_lines(bool same, bool crossing) {
-  if (same)
-    return crossing ? "a ring must not cross itself; is a blank line between two rings missing?"
-                    : "a ring touches itself; is a blank line between two rings missing?";
-  return crossing ? "two rings must not cross; to join areas, make each one a separate part and unite them in "
-                    "'geometry', or dissolve their common borders first, as QGIS does"
-                  : "two rings touch or overlap along an edge, or cross at a vertex; make each one a separate part and "
-                    "unite them in 'geometry', or dissolve their common borders first, as QGIS does";
-}
-
-contours::Fault Placement::fault_of(const SegmentGrid& grid, const SegmentPair& pair) const {
-  const Segment &s = grid.segments()[at(pair[0])], &t = grid.segments()[at(pair[1])];
-  const auto [first_ring, line] = ring_and_line_of(pair[0]);
-  const auto [second_ring, other_line] = ring_and_line_of(pair[1]);
-  const bool same = first_ring == second_ring, crossing = meeting_of(s, t) == Meeting::crossing;
-  const bool is_map = contour_.is_map,
-             one_polygon = rings_[first_ring].polygon == rings_[second_ring].polygon && rings_[first_ring].polygon != 0;
-  const char* remedy =
-      is_map && crosses_date_line(rings_[first_ring].points)
-          ? "the ring seems to cross the meridian of 180 degrees; set 'projection = auto' in [shape], which joins both "
-            "sides"
-      : is_map && same        ? "a ring must neither cross nor touch itself; ogr2ogr -makevalid may repair it"
-      : is_map && one_polygon ? "rings of one polygon must not cross; ogr2ogr -makevalid may repair it"
-      : touches_.dissolve     ? "closed lines form one polygon together and must not cross; make polygons of them"
-      : is_map ? "polygons of a map must neither overlap nor share borders; set 'overlap = union' in the "
-                 "section of this contour to unite them"
-               : remedy_of_lines(same, crossing);
-  return {where(contour_, line),
-          fmt::format("{} {} {} near {}", contour_.features.empty() ? "the edge that starts here" : "an edge",
-                      crossing ? "crosses" : "touches", other_edge({line, other_line}), in_file(meeting_point(s, t))),
-          remedy, ""};
-}
-
-/// Returns a warning for every ring that encloses a separate piece, except the one with the largest area. Maps mean
-/// such pieces.
-void Placement::tell_pieces(const Polygon& polygon, std::vector<std::string>& warnings) const {
-  if (contour_.is_map)
-    return;
-  const std::span<const Segment> segments = polygon.grid.segments();
-  std::vector<int> starts; // lines of the rings that are not holes
-  double largest = 0;
-  std::size_t main = 0;
-  for (std::size_t k = 0; k < polygon.rings.size(); ++k) {
-    const Polygon::Ring& ring = polygon.rings[k];
-    const Vec2 origin = segments[ring.first].a;
-    double twice_area = 0;
-    for (const Segment& s : segments.subspan(ring.first, ring.count))
-      twice_area += cross(s.a - origin, s.b - origin);
-    if ((twice_area > 0) == ring.reversed)
-      continue;
-    if (std::fabs(twice_area) > largest) {
-      largest = std::fabs(twice_area);
-      main = starts.size();
-    }
-    starts.push_back(rings_[k].lines[0]);
-  }
-  std::size_t told = 0;
-  for (std::size_t k = 0; k < starts.size(); ++k)
-    if (k != main && ++told <= most_told)
-      warnings.push_back(fmt::format("{}: the ring that starts here lies outside the area of all others and becomes a "
-                                     "separate piece",
-                                     where(contour_, starts[k])));
-  if (told > most_told)
-    warnings.push_back(fmt::format("{}: {} more rings become separate pieces", contour_.source, told - most_told));
 }
 
 void Placement::orient(Polygon& polygon) {

@@ -3,7 +3,7 @@
 
 #include "core/angle.hpp"
 #include "geometry/box_tree.hpp"
-#include "geometry/predicates.hpp"
+#include "geometry/even_odd.hpp"
 #include "shape/arrangement.hpp"
 #include "shape/contour_polygon.hpp"
 #include "shape/part_images.hpp"
@@ -35,14 +35,8 @@ double area_of(std::span<const Vec2> ring) {
 /// Does the ring contain a point that is not on it?
 bool holds(std::span<const Vec2> ring, Vec2 p) {
   bool inside = false;
-  for (std::size_t k = 0; k < ring.size(); ++k) {
-    Vec2 a = ring[k], b = ring[(k + 1) % ring.size()];
-    if ((a.y > p.y) == (b.y > p.y))
-      continue;
-    if (a.y > b.y)
-      std::swap(a, b);
-    inside = inside != (geometry::orient2d(a, b, p) > 0);
-  }
+  for (std::size_t k = 0; k < ring.size(); ++k)
+    inside = inside != geometry::crosses_ray(ring[k], ring[(k + 1) % ring.size()], p);
   return inside;
 }
 

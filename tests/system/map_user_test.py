@@ -138,6 +138,8 @@ class MapUser(unittest.TestCase):
     def test_messages_say_what_to_do(self):
         self.refused("known names: coast, open sea.*write a list as", bay(), size_at="coast 200 open sea 2000")
         self.refused(r"'attribute = FIELD' in \[shape\.water\]", bay(), "shape.water.attribute=")
+        self.refused(r"'max_size = 0\.02' in \[sizing\] asks for 4\.6e\+12 or more points.*usually metres", bay(),
+                     size_at="coast 0.002", max_size=0.02)
         self.refused(r"\[longitude 0, latitude .*\] lies outside", bay(), "meshing.components=at 0 0")
         self.refused("without 'coordinates' the files have", bay(), "shape.projection=", "output.coordinates=degrees",
                      "output.formats=fort14", "sizing.size_at=coast 0.01", "sizing.max_size=0.02")
