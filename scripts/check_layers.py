@@ -21,7 +21,7 @@ ARROWS = {
     "contours": ["geometry"],
     "tracing": ["geometry"],
     "shape": ["geometry", "contours", "tracing"],
-    "projection": ["geometry"],
+    "projection": ["geometry", "contours"],
     "sizing": ["comm", "geometry", "cones"],
     "delaunay": ["geometry", "mesh"],
     "decomposition": ["comm", "geometry", "mesh"],

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/map_projection.hpp"
 
-#include "app/straight_edges.hpp"
 #include "contours/date_line.hpp"
 #include "contours/map_features.hpp"
 #include "core/quoted.hpp"
 #include "projection/projection.hpp"
+#include "projection/straight_edges.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
@@ -91,18 +91,47 @@ geometry::Box box_of(std::span<const Contour> contours) {
   return box;
 }
 
+/// A key with a length, and the length; 0 if the config has none.
+struct GivenLength {
+  const char* key = "edge_length";
+  double length = 0;
+};
+
+/// Returns the smallest length that the config gives for the edges of some place; min_size only if no other one is
+/// given.
+GivenLength length_of(const RunOptions& options) {
+  const meshing::MeshOptions& mesh = options.mesh;
+  GivenLength least{"edge_length", mesh.edge_length.value_or(0)};
+  if (mesh.absolute_sizes && options.sizing.type == "uniform")
+    least = {"max_size", mesh.max_size.value_or(0)};
+  for (const sizing::NamedSize& named : options.sizing.size_at)
+    if (!(least.length > 0) || named.size < least.length)
+      least = {"size_at", named.size};
+  return mesh.min_size.value_or(0) > least.length ? GivenLength{"min_size", *mesh.min_size} : least;
+}
+
+/// Does the map reach both sides of the date line, as one that is cut there?
+bool is_cut_at_date_line(const geometry::Box& box) {
+  constexpr double date_line = 180, on_meridian = 1e-9;
+  return std::fabs(box.min.x + date_line) <= on_meridian && std::fabs(box.max.x - date_line) <= on_meridian;
+}
+
 /// Degrees where metres were meant would lose nearly all of the shape: edges of metres are longer than all of it.
 void tell_of_degrees(const RunOptions& options, const Contour& map, const geometry::Box& box, Log& log) {
   constexpr double far = 4; // extents between the origin and the box: drawings begin near the origin
   const double extent = std::fmax(box.width(), box.height());
   const double away =
       std::hypot(std::fmax(std::fmax(box.min.x, -box.max.x), 0), std::fmax(std::fmax(box.min.y, -box.max.y), 0));
-  const double edge = options.mesh.edge_length.value_or(0), least = options.mesh.min_size.value_or(0);
-  if (std::fmax(edge, least) > extent)
+  const GivenLength given = length_of(options);
+  if (given.length > extent)
     log.warning("{} = {:g} is longer than the whole shape ({:.3g}). The coordinates of {} are within 360 and 90, so "
                 "they are most likely longitude and latitude in degrees, but the length seems to be in metres; set "
                 "'projection = auto' in [shape] to mesh them in metres",
-                edge >= least ? "edge_length" : "min_size", std::fmax(edge, least), extent, map.source);
+                given.key, given.length, extent, map.source);
+  else if (is_cut_at_date_line(box))
+    log.warning("the coordinates of {} are most likely longitude and latitude in degrees: the map begins at -180 and "
+                "ends at 180; set 'projection = auto' in [shape] to mesh it in metres",
+                map.source);
   else if (away > far * extent)
     log.warning("the coordinates of {} are most likely longitude and latitude in degrees: the map is {:.3g} long and "
                 "{:.3g} away from (0, 0); set 'projection = auto' in [shape] to mesh them in metres",
@@ -155,7 +184,7 @@ void warn_of_distortion(std::span<const Contour> contours, const std::string& pl
       plane, worst.most, worst.place.x, worst.place.y, (worst.place.y < 0 ? 32700 : 32600) + zone, zone);
 }
 
-void tell_of_divided(const DividedEdges& divided, Log& log) {
+void tell_of_divided(const projection::DividedEdges& divided, Log& log) {
   if (divided.edges > 0)
     log.info("{} long edge{} of the contours {} divided by {} more vertices: edges are straight in the coordinates of "
              "their files, and {} up to {:.3g} away from that line in the plane",
@@ -236,7 +265,7 @@ MapSystem project_contours(const RunOptions& options, std::span<Contour> contour
         project_contour(contour, map.crs);
       }
     map.well_known_text = projection::well_known_text(map.crs);
-    tell_of_divided(divide_long_edges(contours, map.crs), log);
+    tell_of_divided(projection::divide_long_edges(contours, map.crs), log);
     if (options.projection != "auto")
       warn_of_distortion(contours, map.crs, log);
   } catch (const ConfigError& error) {
@@ -245,6 +274,13 @@ MapSystem project_contours(const RunOptions& options, std::span<Contour> contour
   }
   log.info("projection: {}", map.crs);
   return map;
+}
+
+std::string name_of(const MapSystem& map) {
+  const std::size_t bracket = map.crs.find('['), quote = map.crs.find('"'), end = map.crs.find('"', quote + 1);
+  if (bracket == std::string::npos || quote != bracket + 1 || end == std::string::npos)
+    return map.crs;
+  return map.crs.substr(quote + 1, end - quote - 1);
 }
 
 std::optional<Vec2> on_earth(const MapSystem& map, Vec2 place) {

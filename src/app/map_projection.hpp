@@ -23,8 +23,8 @@ struct MapSystem {               ///< name of the reference system, as PROJ know
 /// reference system their files name.
 ///
 /// If a file names no reference system, its coordinates are longitude and latitude on WGS 84. Polygons that meet at the
-/// date line are joined, see contours::join_at_date_line. Long edges are divided, see divide_long_edges: edges are
-/// straight in the coordinates of their file.
+/// date line are joined, see contours::join_at_date_line. Long edges are divided, see projection::divide_long_edges:
+/// edges are straight in the coordinates of their file.
 /// @param contours one for each part of the options, without rings if the part is not a contour
 /// @throws ConfigError if PROJ does not know a system; GeometryError `source:line: ...` for a vertex that cannot be
 /// projected
@@ -34,6 +34,9 @@ MapSystem project_contours(const RunOptions& options, std::span<contours::Contou
 /// @brief Projects one contour and keeps the original coordinates in ContourRing::in_file.
 /// @throws the errors of project_contours
 void project_contour(contours::Contour& contour, const std::string& plane);
+
+/// Returns the name of the reference system for people: of a definition as WKT only the name inside.
+std::string name_of(const MapSystem& map);
 
 /// Returns longitude and latitude, in degrees, of a place in the mesh; nothing if PROJ does not know its reference
 /// system.

@@ -30,7 +30,7 @@ std::string start_text(const Provenance& p) {
 std::string shape_text(const Provenance& p) {
   return fmt::format("area {:.6g}, boundary length {:.6g}; {}{}", p.boundary.area, p.boundary.length(),
                      topology(p.boundary.components(), p.boundary.holes()),
-                     p.map.crs.empty() ? "" : "; coordinates in " + p.map.crs);
+                     p.map.crs.empty() ? "" : "; coordinates in " + name_of(p.map));
 }
 
 std::string mesh_text(const meshing::MeshResult& result) {
@@ -68,11 +68,8 @@ std::string quality_text(const mesh::QualitySummary& q) {
 }
 
 /// The shortest edge, which limits the time step of many solvers.
-std::string shortest_text(const mesh::QualitySummary& q, const Provenance& p) {
-  std::string text = fmt::format("edge of length {:.6g} at {}", q.shortest_edge, Place(q.shortest_place, 10));
-  if (const auto place = p.is_root ? on_earth(p.map, q.shortest_place) : std::nullopt)
-    text += fmt::format("; longitude {:.8g}, latitude {:.8g}", place->x, place->y);
-  return text;
+std::string shortest_text(const mesh::QualitySummary& q) {
+  return fmt::format("edge of length {:.6g} at {}", q.shortest_edge, Place(q.shortest_place, 10));
 }
 
 /// Counts the features of the boundary that the run changed.
@@ -158,8 +155,7 @@ std::string run_summary(const RunFacts& facts) {
   std::string text =
       line("Run", start_text(facts.provenance)) + line("Shape", shape_text(facts.provenance)) +
       line("Mesh", mesh_text(result)) + line("Size", size_text(facts.size, facts.result.quality.growth)) +
-      line("Quality", quality_text(result.quality)) +
-      line("Shortest", shortest_text(result.quality, facts.provenance)) +
+      line("Quality", quality_text(result.quality)) + line("Shortest", shortest_text(result.quality)) +
       line("Boundary", boundary_text(result.features)) +
       line("Names", names_text(facts.provenance.boundary, facts.part_edges)) +
       line("Sweeps", fmt::format("{}: {}", sweeps, sweep::to_string(result.stop_reason))) +

@@ -78,12 +78,49 @@ BuiltSize expression_size(const RunOptions& options, const geometry::Domain& dom
   return size;
 }
 
+/// Sizes in another unit than the coordinates, such as degrees in a plane of metres, may ask for an absurd number of
+/// points, and counting these would take hours.
+/// @throws ConfigError on all ranks if even the largest size asks for too many points
+void check_largest_size(const RunOptions& options, const geometry::Domain& domain) {
+  if (!options.mesh.absolute_sizes || !options.mesh.max_size)
+    return;
+  const double largest = *options.mesh.max_size, area = domain.boundary().area;
+  const double least_points = area / (0.5 * std::sqrt(3.0) * largest * largest);
+  if (!(least_points <= most_points))
+    throw ConfigError(fmt::format(
+        "'max_size = {:g}' in [sizing] asks for {} points in a shape of area {:.3g}; at most "
+        "{:.0e} are possible. Sizes have the unit of the coordinates{}; use larger sizes",
+        largest, std::isfinite(least_points) ? fmt::format("{:.2g} or more", least_points) : "far too many", area,
+        most_points, options.projection.empty() ? "" : ", which are projected into a plane, usually metres"));
+}
+
+/// What a user can do if size_at has a name that no part of the boundary has.
+std::string advice_on_names(const RunOptions& options) {
+  std::string advice = "; write a list as 'coast 200, open sea 2000'";
+  for (const PartOptions& part : options.parts)
+    if (part.type == "contour" && part.attribute.empty())
+      return advice +
+             fmt::format("; 'attribute = FIELD' in [shape.{}] names the boundary after a field of a map", part.name);
+  return advice;
+}
+
+/// @throws ConfigError on all ranks if size_at has a name that no part of the boundary has
+void check_names(const RunOptions& options, const geometry::Domain& domain) {
+  try {
+    for (const sizing::NamedSize& named : options.sizing.size_at)
+      sizing::parts_named(named.name, domain.boundary().part_names);
+  } catch (const ConfigError& error) {
+    throw ConfigError(fmt::format("{}: {}{}", options.sizing.size_at_place, error.what(), advice_on_names(options)));
+  }
+}
+
 /// Lowers the size on the parts of the boundary that the key size_at names. All ranks get the same size, or the same
 /// error.
 void lower_at_boundary(const RunOptions& options, const geometry::Domain& domain, BuiltSize& size) {
   const SizingOptions& sizing = options.sizing;
   const double gradation = options.mesh.gradation.value();
   size.base = std::move(size.field);
+  check_names(options, domain);
   try {
     size.field = std::make_unique<const sizing::BoundarySize>(*size.base, sizing::named_curves(domain), sizing.size_at,
                                                               gradation, images_of(domain));
@@ -98,6 +135,7 @@ void lower_at_boundary(const RunOptions& options, const geometry::Domain& domain
 } // namespace
 
 BuiltSize build_size(const RunOptions& options, const geometry::Domain& domain, const comm::Communicator& comm) {
+  check_largest_size(options, domain);
   BuiltSize size;
   if (options.sizing.type == "automatic") {
     size = automatic_size(options, domain, comm);

@@ -18,12 +18,17 @@ constexpr double farthest = 0.25;
 /// [extent of the contour] The lattice moves a vertex by less.
 constexpr double same_place = 1e-10;
 
+std::string in_degrees(Vec2 place) {
+  return fmt::format("longitude {:.10g}, latitude {:.10g}", place.x, place.y);
+}
+
 } // namespace
 
 void UserPlaces::add(const contours::Contour& contour, const contours::Normalization& place) {
   OneContour one{{}, place, place.scale != 1 || place.from != place.to, {}, {}, {}, {}, {}};
   one.named.source = contour.source;
   one.named.features = contour.features;
+  one.named.is_map = contour.is_map;
   one.named.in_degrees = contour.in_degrees;
   std::size_t count = 0;
   for (const contours::ContourRing& ring : contour.rings)
@@ -55,16 +60,17 @@ std::string UserPlaces::name_of(Vec2 place) const {
         vertex = k;
       }
   }
+  const std::optional<Vec2> earth = on_earth_ ? on_earth_(place) : std::nullopt;
   if (contour == nullptr)
-    return "";
-  const bool projected = !contour->in_file.empty();
-  Vec2 user = projected ? contour->in_file[vertex] : contour->place.undo(place);
-  if (contour->named.in_degrees && on_earth_)
-    user = on_earth_(place).value_or(user);
+    return earth ? fmt::format(" [{}]", in_degrees(*earth)) : "";
   const std::string file = contours::where(contour->named, contour->lines[vertex]);
+  if (earth)
+    return fmt::format(" [{}: {}]", file, in_degrees(*earth));
+  const bool projected = !contour->in_file.empty();
   if (!contour->moved && !projected)
     return fmt::format(" [{}]", file);
-  return contour->named.in_degrees ? fmt::format(" [{}: longitude {:.10g}, latitude {:.10g}]", file, user.x, user.y)
+  const Vec2 user = projected ? contour->in_file[vertex] : contour->place.undo(place);
+  return contour->named.in_degrees ? fmt::format(" [{}: {}]", file, in_degrees(user))
                                    : fmt::format(" [{}: ({:.10g}, {:.10g})]", file, user.x, user.y);
 }
 

@@ -86,7 +86,7 @@ ContourRings read_poly(const std::string& path, const std::string& text) {
 
 } // namespace
 
-ContourRings read_contour(const std::string& path) {
+ContourRings read_contour(const std::string& path, OpenLines lines) {
   const std::optional<std::string> text = read_text(path);
   if (!text)
     return {{}, fmt::format("{} cannot be read", path), ""};
@@ -94,11 +94,11 @@ ContourRings read_contour(const std::string& path) {
   if (path.ends_with(".xy") || path.ends_with(".txt") || path.ends_with(".dat"))
     found.rings = read_rings(*text);
   else if (path.ends_with(".geojson") || path.ends_with(".json"))
-    found = read_geojson(path, *text);
+    found = read_geojson(path, *text, lines);
   else if (path.ends_with(".poly"))
     found = read_poly(path, *text);
   else if (path.ends_with(".shp"))
-    found = read_shapefile(path, *text);
+    found = read_shapefile(path, *text, lines);
   else
     found.reason = fmt::format("{}: trime_check reads only lines 'x y', GeoJSON, shapefiles and .poly", path);
   if (found.reason.empty() && found.rings.empty())

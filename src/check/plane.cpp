@@ -138,12 +138,39 @@ std::optional<std::vector<Point>> project_with(const Projection& projection, con
 
 } // namespace
 
+DateLine unroll(std::vector<Ring>& rings, const std::string& from) {
+  if (!Projection(from, "OGC:CRS84").is_geographic() || !has_edge_on_date_line(rings))
+    return DateLine::free;
+  std::vector<std::pair<double, double>> ranges; // of longitudes
+  for (const Ring& ring : rings) {
+    const Box box = box_of({ring});
+    ranges.emplace_back(box.min.x, box.max.x);
+  }
+  std::ranges::sort(ranges);
+  double reached = ranges[0].second;
+  const auto free = std::ranges::find_if(ranges, [&](const auto& range) {
+    if (range.first > reached)
+      return true;
+    reached = std::max(reached, range.second);
+    return false;
+  });
+  if (free == ranges.end())
+    return DateLine::closed;
+  for (Ring& ring : rings)
+    if (box_of({ring}).max.x <= reached)
+      for (Point& p : ring)
+        p.x = std::fabs(p.x + half_circle) <= on_meridian ? half_circle : p.x + 2 * half_circle;
+  for (Ring& ring : rings)
+    for (Point& p : ring)
+      if (std::fabs(p.x - half_circle) <= on_meridian)
+        p.x = half_circle;
+  return DateLine::unrolled;
+}
+
 ProjectedRings project(const std::vector<Ring>& rings, const std::string& from, const std::string& to) {
   const Projection projection(from, to);
   if (!projection.is_known())
     return {{}, false, "PROJ does not know the reference systems of contour and mesh"};
-  if (projection.is_geographic() && has_edge_on_date_line(rings))
-    return {{}, false, "trime_check cannot join polygons at the date line"};
   const ProjectedRings outside{{}, false, "a vertex has no place in the plane of the mesh"};
   ProjectedRings found;
   for (const Ring& ring : rings) {

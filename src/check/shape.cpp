@@ -2,6 +2,7 @@
 #include "shape.hpp"
 
 #include "contour_files.hpp"
+#include "outline.hpp"
 #include "plane.hpp"
 #include "report.hpp"
 
@@ -19,8 +20,9 @@ namespace {
 
 // Constants from the documentation of the config (configs/shapes.md).
 constexpr double normalized_share = 0.8; // [shorter side of the container] longer side of a normalised contour
-constexpr double bend = 1e-6;   // [longer side of all contours] edges of maps are divided until they follow so far
-constexpr double margin = 0.05; // [longer side of the shape] around it, where the container is automatic
+constexpr double bend = 1e-6;       // [longer side of all contours] edges of maps are divided until they follow so far
+constexpr double closed_gap = 0.01; // [edge length] gaps between united polygons that are narrower are closed
+constexpr double margin = 0.05;     // [longer side of the shape] around it, where the container is automatic
 constexpr Box unit_square{{0, 0}, {1, 1}};
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double box_slack = 1e-12; // [longer side of the container] rounding of what lies in a curve
@@ -55,8 +57,9 @@ struct Source {
   std::vector<Ring> rings; // of all but circles
   Point center;
   double radius = 0;
-  bool normalised = false, has_names = false, bent = false;
+  bool normalised = false, has_names = false, bent = false, united = false;
   std::string crs; // of a contour, as in its file
+  std::vector<Point> crossings = {};
 
   Box box() const {
     return type == "circle" ? Box{{center.x - radius, center.y - radius}, {center.x + radius, center.y + radius}}
@@ -68,14 +71,31 @@ bool is_projected(const ConfigText& config) {
   return config.has("shape", "projection");
 }
 
-/// Reads the rings of a contour, and projects them if the config says so.
+/// Reads the rings of a contour, unites or repairs them, and projects them if the config says so.
 void read_rings_of(const ConfigText& config, const std::string& path, const std::string& plane, Source& part) {
-  ContourRings found = read_contour(path);
+  const std::string section = "shape." + part.name;
+  const bool repaired = config.is_true(section, "repair");
+  part.united = config.value(section, "overlap") == "union";
+  ContourRings found = read_contour(path, repaired ? OpenLines::leave_out : OpenLines::refuse);
   part.rings = std::move(found.rings);
   part.reason = std::move(found.reason);
   part.crs = std::move(found.crs);
-  if (!is_projected(config) || !part.reason.empty())
+  if (!part.reason.empty())
     return;
+  const DateLine date_line = is_projected(config) ? unroll(part.rings, part.crs) : DateLine::free;
+  if (date_line == DateLine::closed) {
+    part.reason = fmt::format("{}: trime_check joins polygons at the date line only if another meridian is free", path);
+    return;
+  }
+  if (part.united || repaired || date_line == DateLine::unrolled) {
+    const std::vector<Ring> given = std::move(part.rings);
+    part.rings = outline(given, part.united ? found.polygon : std::vector<int>(given.size(), 0));
+    part.crossings = new_vertices(part.rings, given);
+  }
+  if (!is_projected(config))
+    return;
+  if (std::optional<std::vector<Point>> places = project(part.crossings, part.crs, plane))
+    part.crossings = std::move(*places);
   ProjectedRings projected = project(part.rings, part.crs, plane);
   part.rings = std::move(projected.rings);
   part.bent = projected.bent;
@@ -86,7 +106,8 @@ void read_rings_of(const ConfigText& config, const std::string& path, const std:
 Source read_part(const ConfigText& config, const std::string& name, const std::string& plane) {
   const std::string section = "shape." + name;
   Source part{name, config.value(section, "type"),        "",    {},    {},
-              0,    config.is_true(section, "normalize"), false, false, ""};
+              0,    config.is_true(section, "normalize"), false, false, false,
+              ""};
   const auto number = [&](const char* key) {
     if (const std::optional<double> value = config.number(section, key))
       return *value;
@@ -102,10 +123,7 @@ Source read_part(const ConfigText& config, const std::string& name, const std::s
   } else if (part.type == "contour") {
     const std::string path = config.path(section, "file");
     part.has_names = !path.ends_with(".xy");
-    if (config.value(section, "overlap") == "union" || config.is_true(section, "repair"))
-      part.reason = fmt::format("{}: trime_check cannot join or repair its rings", path);
-    else
-      read_rings_of(config, path, plane, part);
+    read_rings_of(config, path, plane, part);
   } else
     part.reason = fmt::format("trime_check cannot compute the curve of a part of type '{}'", part.type);
   return part;
@@ -351,7 +369,7 @@ void set_bends(Shape& shape, const std::vector<Source>& sources) {
 
 /// Appends the part of a source, and normalises the fixed points if they go with it.
 void add_part(Shape& shape, const Source& source, bool has_fixed_points) {
-  Part part{source.name, nullptr, source.reason, 0, source.has_names};
+  Part part{source.name, nullptr, source.reason, 0, source.crossings, source.has_names};
   std::vector<Ring> rings = source.rings;
   if (source.normalised && source.reason.empty()) {
     const Normalisation fit(source.box(), shape.container);
@@ -369,6 +387,17 @@ void add_part(Shape& shape, const Source& source, bool has_fixed_points) {
   shape.parts.push_back(std::move(part));
 }
 
+/// Removes from united polygons the gaps that the mesher closes. Those of up to twice this width are not judged,
+/// because only the program knows the edge length that it has used.
+void close_gaps(const ConfigText& config, const std::vector<Point>& mesh, std::vector<Source>& sources) {
+  const Box box = box_of({mesh});
+  const double h = std::sqrt(2 / std::sqrt(3.0) * (box.max.x - box.min.x) * (box.max.y - box.min.y) /
+                             static_cast<double>(std::max<std::size_t>(mesh.size(), 1)));
+  for (Source& source : sources)
+    if (source.united && !config.is_true("meshing", "keep_features"))
+      drop_narrow_holes(source.rings, 2 * closed_gap * h);
+}
+
 } // namespace
 
 Shape make_shape(const ConfigText& config, const std::vector<Point>& mesh, const std::string& plane) {
@@ -383,6 +412,7 @@ Shape make_shape(const ConfigText& config, const std::vector<Point>& mesh, const
     shape.numbers.emplace(name, sources.size());
     sources.push_back(read_part(config, name, plane));
   }
+  close_gaps(config, mesh, sources);
   shape.numbers.emplace("domain", sources.size());
   shape.region = std::make_unique<Region>(region, shape.numbers);
   set_container(shape, config, sources, mesh);
@@ -391,7 +421,7 @@ Shape make_shape(const ConfigText& config, const std::vector<Point>& mesh, const
   for (const Source& source : sources)
     add_part(shape, source, source.name == companion);
   set_bends(shape, sources);
-  shape.parts.push_back({"domain", make_container(shape.container, shape.periods), "", 0, false});
+  shape.parts.push_back({"domain", make_container(shape.container, shape.periods), "", 0, {}, false});
   shape.finder = std::make_unique<PartFinder>(shape.parts);
   return shape;
 }

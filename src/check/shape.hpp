@@ -5,6 +5,7 @@
 #include "config_text.hpp"
 #include "curve.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,7 +17,14 @@ struct Part {
   std::unique_ptr<Curve> curve; ///< empty for a formula, or for a kind of file that trime_check cannot read
   std::string reason;           ///< why there is no curve
   double bend = 0;              ///< the boundary may be so far from the curve, because edges of maps are curves
-  bool has_names = false;       ///< whether its file can give names or markers to pieces of the curve
+  /// Vertices where edges of united polygons cross. The mesher, which crosses their edges in the plane, may have
+  /// others.
+  std::vector<Point> crossings = {};
+  bool has_names = false; ///< whether its file can give names or markers to pieces of the curve
+
+  bool is_crossing(Point p) const {
+    return std::any_of(crossings.begin(), crossings.end(), [p](Point q) { return p.x == q.x && p.y == q.y; });
+  }
 };
 
 /// Finds the parts near a place.

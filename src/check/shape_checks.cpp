@@ -204,7 +204,8 @@ private:
       if (!part.curve) // the region does not use it
         continue;
       for (const Point corner : part.curve->corners(angle))
-        if (!shape_.meets_another(part, corner, on_lattice * shape_.step) && shape_.matters(part, corner)) {
+        if (!part.is_crossing(corner) && !shape_.meets_another(part, corner, on_lattice * shape_.step) &&
+            shape_.matters(part, corner)) {
           ++expected;
           if (!fixed_.has(corner))
             missing.note([&] { return place_of(corner); });

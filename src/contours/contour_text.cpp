@@ -2,6 +2,7 @@
 #include "contours/contour_text.hpp"
 
 #include "contours/faults.hpp"
+#include "contours/map_features.hpp"
 #include "contours/rules.hpp"
 #include "trime/core/error.hpp"
 
@@ -347,8 +348,8 @@ void check_coordinates(Vec2 p, const std::string& source, int line, const std::s
   if (std::fabs(p.x) <= most && std::fabs(p.y) <= most)
     return;
   throw GeometryError(fmt::format(
-      "{}:{}{}: expected finite coordinates of at most {:g}, found ({}, {}){}", source, line, feature, most, p.x, p.y,
-      std::isnan(p.x) && std::isnan(p.y) ? "; between rings write a blank line, or a line with '>'" : ""));
+      "{}: expected finite coordinates of at most {:g}, found ({}, {}){}", place_in_file(source, line, feature), most,
+      p.x, p.y, std::isnan(p.x) && std::isnan(p.y) ? "; between rings write a blank line, or a line with '>'" : ""));
 }
 
 } // namespace trime::contours

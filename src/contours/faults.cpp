@@ -90,7 +90,7 @@ void check_reading(const Contour& contour, Faults treatment, const char* expecte
     check_faults(contour.faults, contour.source, treatment);
   if (!contour.rings.empty())
     return;
-  check_faults(contour.faults, contour.source, treatment == Faults::repair ? Faults::refuse : treatment);
+  check_faults(contour.faults, contour.source, Faults::refuse); // a repair would leave nothing
   throw GeometryError(fmt::format("{}: expected {}, found no vertex at all", contour.source, expected));
 }
 

@@ -79,7 +79,7 @@ void FeatureRings::end_feature(const std::optional<std::string>& value, const Fe
   builder_.set_feature(label);
   for (Chain& chain : of_feature_) {
     for (const FilePoint& vertex : chain.vertices) // before ends are compared
-      check_coordinates(vertex.position, contour_.source, vertex.line, label);
+      check_coordinates(vertex.position, contour_.source, vertex.line > 1 ? vertex.line : 0, label);
     if (use_ == Use::curves) {
       add_line(contour_, chain.vertices, number);
       if (feature.number > 0)
@@ -87,10 +87,7 @@ void FeatureRings::end_feature(const std::optional<std::string>& value, const Fe
       continue;
     }
     if (chain.kind == Kind::line && chain.vertices.front().position != chain.vertices.back().position) {
-      chain.label = label;
-      chain.feature = feature.number;
-      open_lines_.push_back(std::move(chain));
-      open_markers_.push_back(number);
+      keep_open({std::move(chain.vertices), feature.number, number, label});
       continue;
     }
     builder_.set_polygon(chain.polygon);
@@ -106,6 +103,17 @@ void FeatureRings::end_feature(const std::optional<std::string>& value, const Fe
   builder_.set_feature({});
 }
 
+/// Keeps a line without vertices that repeat the one before.
+void FeatureRings::keep_open(OpenLine line) {
+  const auto end = std::unique(line.vertices.begin(), line.vertices.end(), [this](const auto& a, const auto& b) {
+    if (a.position == b.position)
+      builder_.tell_merged(b.position, b.line);
+    return a.position == b.position;
+  });
+  line.vertices.erase(end, line.vertices.end());
+  open_lines_.push_back(std::move(line));
+}
+
 void FeatureRings::finish(const char* expected, Faults faults) {
   end_feature();
   if (!attribute_.empty() && attributes_.count(attribute_) == 0)
@@ -113,6 +121,8 @@ void FeatureRings::finish(const char* expected, Faults faults) {
                                   attribute_,
                                   attributes_.empty() ? std::string("none with attributes")
                                                       : fmt::format("only {}", fmt::join(attributes_, ", "))));
+  drop_repeated_lines(open_lines_, contour_);
+  join_ends_at_date_line(open_lines_, contour_);
   leave_out_open();
   join_lines();
   builder_.finish();
@@ -134,7 +144,7 @@ int FeatureRings::number_of(const std::optional<std::string>& value) {
 /// Takes lines that do not close a ring out of open_lines_; they become faults.
 void FeatureRings::leave_out_open() {
   std::vector<LineEnds> ends;
-  for (const Chain& chain : open_lines_) {
+  for (const OpenLine& chain : open_lines_) {
     LineEnds& line = ends.emplace_back();
     line.first = chain.vertices.front();
     line.last = chain.vertices.back();
@@ -144,37 +154,23 @@ void FeatureRings::leave_out_open() {
   const std::vector<OpenGroup> groups = open_groups(ends);
   std::vector<char> is_left_out(open_lines_.size(), 0);
   for (const OpenGroup& group : groups) {
-    add_fault(contour_.faults, group.nearly_closed || group.branches ? HasArea::yes : HasArea::no, [&] {
-      return fault_of(group, fmt::format("{}:{}{}", contour_.source, group.end.line, open_lines_[group.line].label));
-    });
+    add_fault(contour_.faults, group.nearly_closed || group.branches ? HasArea::yes : HasArea::no,
+              [&] { return fault_of(group, place_of_line(contour_, group.end.line, open_lines_[group.line].label)); });
     for (const std::size_t line : group.left_out)
       is_left_out[line] = 1;
   }
   std::size_t kept = 0;
   for (std::size_t line = 0; line < open_lines_.size(); ++line)
     if (is_left_out[line] == 0) {
-      open_markers_[kept] = open_markers_[line];
       if (kept != line)
         open_lines_[kept] = std::move(open_lines_[line]);
       ++kept;
     }
   open_lines_.resize(kept);
-  open_markers_.resize(kept);
 }
 
 void FeatureRings::join_lines() {
-  std::vector<FileVertex> vertices;
-  std::vector<FileSegment> segments;
-  for (std::size_t line = 0; line < open_lines_.size(); ++line)
-    for (std::size_t k = 0; k < open_lines_[line].vertices.size(); ++k) {
-      const FilePoint& vertex = open_lines_[line].vertices[k];
-      const int index = static_cast<int>(vertices.size());
-      if (k > 0)
-        segments.push_back({index - 1, index, open_markers_[line], vertex.line});
-      const int feature = open_lines_[line].feature;
-      vertices.push_back({vertex.position, feature > 0 ? feature : vertex.line, index + 1});
-    }
-  for (const auto& ring : rings_of_segments(vertices, segments, contour_.source, contour_.warnings)) {
+  for (const auto& ring : rings_of_lines(open_lines_, contour_)) {
     for (const RingVertex& vertex : ring)
       builder_.add(vertex.position, vertex.line, vertex.marker);
     builder_.end_ring();
@@ -199,9 +195,9 @@ void FeatureRings::resolve_markers() {
 void FeatureRings::tell_skipped() {
   if (skipped_ > 0)
     contour_.warnings.push_back(
-        fmt::format("{}:{}: {} geometr{} of type {} or the like left out: only polygons and lines that close rings "
+        fmt::format("{}: {} geometr{} of type {} or the like left out: only polygons and lines that close rings "
                     "bound a shape",
-                    contour_.source, skipped_line_, skipped_, skipped_ == 1 ? "y" : "ies", skipped_type_));
+                    place_of_line(contour_, skipped_line_), skipped_, skipped_ == 1 ? "y" : "ies", skipped_type_));
 }
 
 } // namespace trime::contours

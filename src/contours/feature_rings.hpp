@@ -3,6 +3,7 @@
 // attribute of the features gives the markers of the rings and their names.
 #pragma once
 
+#include "contours/joined_lines.hpp"
 #include "contours/segment_rings.hpp"
 
 #include <map>
@@ -53,12 +54,11 @@ private:
   struct Chain {
     Kind kind;
     std::vector<FilePoint> vertices;
-    int polygon = 0;        // 0 for lines
-    std::string label = {}; // text for messages about an open line
-    int feature = 0;        // number of the feature of an open line; 0 if it has no feature
+    int polygon = 0; // 0 for lines
   };
 
   void note_feature(const FeatureName& feature);
+  void keep_open(OpenLine line);
   int number_of(const std::optional<std::string>& value);
   void leave_out_open();
   void join_lines();
@@ -70,8 +70,7 @@ private:
   std::string attribute_;
   Use use_;
   std::vector<Chain> of_feature_;
-  std::vector<Chain> open_lines_;
-  std::vector<int> open_markers_;      // marker of each open line
+  std::vector<OpenLine> open_lines_;
   std::map<std::string, int> numbers_; // number of each value of the attribute, from 1
   std::vector<std::string> values_;    // the value with number k + 1 at index k
   std::set<std::string> attributes_;

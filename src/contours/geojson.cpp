@@ -136,9 +136,10 @@ public:
     }
     return true;
   }
-  bool parse_error(std::size_t, const std::string& token, const nlohmann::json::exception&) {
-    refuse(line_,
-           fmt::format("expected JSON, found '{}'; the file is damaged or cut off here, or not GeoJSON", shown(token)));
+  bool parse_error(std::size_t position, const std::string& token, const nlohmann::json::exception&) {
+    refuse(line_, fmt::format("expected JSON, found '{}' at character {}; the file is damaged or cut off here, or not "
+                              "GeoJSON",
+                              shown(token), position));
   }
 
   void finish(Faults faults) { rings_.finish("GeoJSON with a Polygon or MultiPolygon", faults); }
@@ -164,8 +165,8 @@ private:
   };
 
   [[noreturn]] void refuse(int line, const std::string& what) const {
-    throw GeometryError(fmt::format("{}:{}{}: {}", contour_.source, line,
-                                    objects_.size() > 1 ? in_brackets(feature_.number, feature_.name) : "", what));
+    const std::string feature = objects_.size() > 1 ? in_brackets(feature_.number, feature_.name) : "";
+    throw GeometryError(fmt::format("{}: {}", place_of_line(contour_, line, feature), what));
   }
 
   static std::string shown(const std::string& token) {

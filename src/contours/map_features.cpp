@@ -37,6 +37,10 @@ std::string place_in_file(const std::string& source, int line, const std::string
   return line > 0 ? fmt::format("{}:{}{}", source, line, feature) : source + feature;
 }
 
+std::string place_of_line(const Contour& contour, int line, const std::string& feature) {
+  return place_in_file(contour.source, contour.is_map && line <= first_line ? 0 : line, feature);
+}
+
 std::string in_brackets(int number, const std::string& name) {
   return number == 0 ? std::string() : fmt::format(" ({})", named(number, name));
 }
@@ -44,9 +48,8 @@ std::string in_brackets(int number, const std::string& name) {
 std::string where(const Contour& contour, int line) {
   const MapFeature* feature = feature_of(contour, line);
   if (feature == nullptr)
-    return place_in_file(contour.source, line);
-  return place_in_file(contour.source, feature->line > first_line ? feature->line : 0,
-                       in_brackets(line, feature->name));
+    return place_of_line(contour, line);
+  return place_of_line(contour, feature->line, in_brackets(line, feature->name));
 }
 
 std::string line_or_feature(const Contour& contour, int line) {

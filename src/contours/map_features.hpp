@@ -15,6 +15,9 @@ namespace trime::contours {
 /// @param feature result of in_brackets; may be empty
 std::string place_in_file(const std::string& source, int line, const std::string& feature = {});
 
+/// @brief Returns place_in_file for a vertex of the contour. In a map the first line is left out.
+std::string place_of_line(const Contour& contour, int line, const std::string& feature = {});
+
 /// Returns ` (feature 3, 'Sylt')`, or an empty text if `number` is 0.
 std::string in_brackets(int number, const std::string& name);
 

@@ -4,6 +4,7 @@
 
 #include "contours/segment_rings.hpp"
 #include "geometry/box_tree.hpp"
+#include "geometry/even_odd.hpp"
 #include "trime/geometry/vec2.hpp"
 
 #include <algorithm>
@@ -41,12 +42,9 @@ public:
 
   /// Returns whether the ring runs around p. O(log(edges) + those right of p).
   bool enclose(geometry::Vec2 p) const {
-    const double rounding = 1e-12 * std::fmax(std::fabs(whole_.min.x), std::fabs(whole_.max.x));
     bool inside = false;
-    tree_.for_each_meeting({{p.x - rounding, p.y}, {whole_.max.x, p.y}}, [&](std::size_t k) {
-      const geometry::Vec2 a = ring_[k].position, b = ring_[(k + 1) % ring_.size()].position;
-      if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (b.x - a.x) * ((p.y - a.y) / (b.y - a.y)))
-        inside = !inside;
+    tree_.for_each_meeting({p, {whole_.max.x, p.y}}, [&](std::size_t k) {
+      inside = inside != geometry::crosses_ray(ring_[k].position, ring_[(k + 1) % ring_.size()].position, p);
     });
     return inside;
   }

@@ -3,6 +3,7 @@
 
 #include "contours/contour_text.hpp"
 #include "contours/faults.hpp"
+#include "contours/map_features.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
@@ -20,7 +21,7 @@ constexpr int most_warnings = 5;
 void RingBuilder::add(Vec2 p, int line, int marker) {
   check_coordinates(p, contour_.source, line, feature_);
   if (!ring_.points.empty() && ring_.points.back() == p) {
-    warn(p, line);
+    tell_merged(p, line);
     ring_.markers.back() = marker;
     return;
   }
@@ -42,7 +43,7 @@ void RingBuilder::end_ring() {
   }
   if (const int distinct = distinct_vertices(); distinct < 3) {
     add_fault(contour_.faults, HasArea::no, [&]() -> Fault {
-      return {fmt::format("{}:{}{}", contour_.source, ring_.lines[0], feature_),
+      return {place_of_line(contour_, ring_.lines[0], feature_),
               fmt::format("the ring that starts here at ({}, {}) has {} distinct {}", ring_.points[0].x,
                           ring_.points[0].y, distinct, distinct == 1 ? "vertex" : "vertices"),
               "expected at least 3", "the ring is left out"};
@@ -81,10 +82,10 @@ int RingBuilder::distinct_vertices() const {
   return 2;
 }
 
-void RingBuilder::warn(Vec2 p, int line) {
+void RingBuilder::tell_merged(Vec2 p, int line) {
   if (++merged_ <= most_warnings)
-    contour_.warnings.push_back(fmt::format("{}:{}{}: vertex ({}, {}) repeats the one before it; the two are merged",
-                                            contour_.source, line, feature_, p.x, p.y));
+    contour_.warnings.push_back(fmt::format("{}: vertex ({}, {}) repeats the one before it; the two are merged",
+                                            place_of_line(contour_, line, feature_), p.x, p.y));
 }
 
 namespace {

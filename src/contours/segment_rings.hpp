@@ -31,10 +31,11 @@ public:
   void end_ring();
   /// Ends the last ring and the text.
   void finish();
+  /// Warns of a vertex that repeats the one before, if it is one of the first.
+  void tell_merged(geometry::Vec2 p, int line);
 
 private:
   int distinct_vertices() const;
-  void warn(geometry::Vec2 p, int line);
 
   Contour& contour_;
   ContourRing ring_;

@@ -158,6 +158,8 @@ private:
 };
 
 class ShapefileReader {
+  static constexpr int no_line = 0; // messages name the feature
+
 public:
   ShapefileReader(const std::string& path, std::string_view bytes, const std::string& attribute, FeatureRings::Use use)
       : path_(path), file_(open(path, bytes)), rings_(contour_, attribute, use), attributes_(path, attribute, rings_) {
@@ -176,8 +178,6 @@ public:
       rings_.end_feature(attributes_.of(k), {k + 1, attributes_.name_of(k)});
     }
     rings_.finish("a shapefile with polygons", faults);
-    for (MapFeature& feature : contour_.features)
-      feature.line = 0;
     return std::move(contour_);
   }
 
@@ -201,7 +201,7 @@ private:
                                     path_, number, part + 1, record.nVertices, first, end));
       std::vector<FilePoint> vertices;
       for (int k = first; k < end; ++k)
-        vertices.push_back({{record.padfX[k], record.padfY[k]}, number});
+        vertices.push_back({{record.padfX[k], record.padfY[k]}, no_line});
       rings_.add(is_line ? FeatureRings::Kind::line : FeatureRings::Kind::polygon, std::move(vertices), part > 0);
     }
   }

@@ -24,7 +24,8 @@ void to_degrees(std::vector<geometry::Vec2>& places, const std::string& crs, con
 void check_degrees(const Names& names) {
   if (names.in_degrees && names.crs.empty())
     throw ConfigError("'coordinates = degrees' needs a mesh whose reference system is known, found none; set "
-                      "'projection = auto' in [shape] for contours in longitude and latitude, or leave it out");
+                      "'projection = auto' in [shape] for contours in longitude and latitude; without 'coordinates' "
+                      "the files have the coordinates of the mesh");
 }
 
 io::TextRows numbered_points(const ExchangeMesh& mesh, const std::string& start, const char* format) {

@@ -5,14 +5,15 @@
 #include "contours/map_features.hpp"
 #include "contours/ring_repair.hpp"
 #include "geometry/predicates.hpp"
+#include "shape/contour_messages.hpp"
 #include "shape/dissolve.hpp"
 #include "shape/lattice_rings.hpp"
 #include "shape/rules.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <map>
 #include <set>
 #include <span>
 #include <utility>
@@ -23,8 +24,6 @@ namespace {
 
 using contours::line_or_feature;
 using contours::where;
-using geometry::Box;
-using geometry::cross;
 using geometry::dot;
 using geometry::Frame;
 using geometry::orient2d;
@@ -32,30 +31,12 @@ using geometry::Segment;
 using geometry::SegmentGrid;
 using geometry::Vec2;
 
-constexpr std::size_t most_told = 5; // warnings of a kind
-
-bool in_box_of(const Segment& s, Vec2 p) {
-  return p.x >= std::fmin(s.a.x, s.b.x) && p.x <= std::fmax(s.a.x, s.b.x) && p.y >= std::fmin(s.a.y, s.b.y) &&
-         p.y <= std::fmax(s.a.y, s.b.y);
-}
-
-/// A point that both segments have, to within rounding; for messages only.
-Vec2 meeting_point(const Segment& s, const Segment& t) {
-  const Vec2 d = s.b - s.a, e = t.b - t.a;
-  const double determinant = cross(d, e);
-  if (determinant == 0)
-    return in_box_of(s, t.a) ? t.a : in_box_of(s, t.b) ? t.b : s.a;
-  return s.a + (cross(t.a - s.a, e) / determinant) * d;
-}
-
 bool is_collinear(const std::vector<Vec2>& p) {
   for (std::size_t k = 2; k < p.size(); ++k)
     if (orient2d(p[0], p[1], p[k]) != 0)
       return false;
   return true;
 }
-
-constexpr double half_turn = 180; // [degrees] an edge that is wider leads across the date line
 
 /// Does the ring turn straight back at a vertex?
 bool has_spike(const std::vector<Vec2>& p) {
@@ -73,16 +54,20 @@ class Placement {
 public:
   Placement(const contours::Contour& contour, const contours::Normalization& normalization, const Frame& frame,
             const TouchOptions& touches)
-      : contour_(contour), normalization_(normalization), frame_(frame), touches_(touches), faults_(contour.faults) {}
+      : contour_(contour), normalization_(normalization), messages_(contour, normalization), frame_(frame),
+        touches_(touches), faults_(contour.faults) {}
 
   Polygon make(std::vector<std::string>& warnings) {
+    check_date_line();
     for (const contours::ContourRing& ring : contour_.rings)
       add_ring(ring, warnings);
     std::vector<std::string> notes;
+    if (touches_.dissolve)
+      list_crossings_in_polygons();
     if (touches_.dissolve || rings_.empty())
       check_faults();
     if (touches_.dissolve)
-      unite(notes);
+      unite(notes, warnings);
     for (const RepeatedRing& ring : drop_repeated(rings_))
       warnings.push_back(fmt::format("{}: the ring that starts here was given before, at {}; it is used once{}",
                                      where(contour_, ring.line), line_or_feature(contour_, ring.first_line),
@@ -107,7 +92,7 @@ public:
     polygon.marker_names = contour_.marker_names;
     polygon.notes = std::move(notes);
     orient(polygon);
-    tell_pieces(polygon, warnings);
+    messages_.tell_pieces(polygon, rings_, warnings);
     return polygon;
   }
 
@@ -116,28 +101,26 @@ public:
 private:
   void add_ring(const contours::ContourRing& ring, std::vector<std::string>& warnings);
   void add_checked(contours::ContourRing ring);
+  void check_date_line() const;
   void check_faults() const;
-  void unite(std::vector<std::string>& notes);
+  void unite(std::vector<std::string>& notes, std::vector<std::string>& warnings);
   void separate(const std::vector<SegmentPair>& meetings, SegmentGrid& grid, std::vector<std::string>& warnings);
-  void tell_touches(const std::vector<RingTouch>& touches, double gap, std::vector<std::string>& warnings) const;
-  void tell_pieces(const Polygon& polygon, std::vector<std::string>& warnings) const;
-  std::string other_edge(const std::array<int, 2>& lines) const;
   void repair_self_meetings(const std::vector<SegmentPair>& meetings);
-  void list_meetings(const SegmentGrid& grid, std::span<const SegmentPair> pairs, bool within_rings);
+  void add_seams(const contours::RepairedRing& repaired, const contours::ContourRing& ring);
+  void list_meetings(const SegmentGrid& grid, std::span<const SegmentPair> pairs);
+  void list_crossings_in_polygons();
   void explain(const std::vector<SegmentPair>& meetings);
-  bool list_seams_in_file();
-  std::pair<std::size_t, int> ring_and_line_of(LocalIndex segment) const;
-  contours::Fault fault_of(const SegmentGrid& grid, const SegmentPair& pair) const;
-  contours::PlaceText place_text() const;
+  void list_seams_in_file();
   std::vector<int> markers_of_segments() const;
-  std::string in_file(Vec2 p) const;
 
   const contours::Contour& contour_;
   const contours::Normalization& normalization_;
+  const ContourMessages messages_;
   const Frame& frame_;
   const TouchOptions& touches_;
   std::vector<LatticeRing> rings_;
   contours::FaultList faults_;
+  std::set<int> with_seams_; // first lines of the rings for which something without area is listed
 };
 
 /// Returns the markers of all segments of the rings; empty if no segment has one.
@@ -153,26 +136,6 @@ std::vector<int> Placement::markers_of_segments() const {
   if (std::all_of(markers.begin(), markers.end(), [](int marker) { return marker == 0; }))
     return {};
   return markers;
-}
-
-/// A place in the coordinates of the file; where these are projected, that of the nearest place on an edge. O(vertices)
-std::string Placement::in_file(Vec2 p) const {
-  Vec2 original = normalization_.undo(p);
-  double least = HUGE_VAL;
-  for (const contours::ContourRing& ring : contour_.rings)
-    for (std::size_t k = 0; k < ring.in_file.size(); ++k) {
-      const std::size_t next = k + 1 == ring.in_file.size() ? 0 : k + 1;
-      const Vec2 a = normalization_.apply(ring.points[k]), d = normalization_.apply(ring.points[next]) - a;
-      const double share = squared_length(d) > 0 ? std::clamp(dot(p - a, d) / squared_length(d), 0.0, 1.0) : 0;
-      if (const double distance = squared_length(a + share * d - p); distance < least) {
-        least = distance;
-        const Vec2 along = ring.in_file[next] - ring.in_file[k];
-        const bool wraps = contour_.in_degrees && std::fabs(along.x) > half_turn;
-        original = wraps ? ring.in_file[share < 0.5 ? k : next] : ring.in_file[k] + share * along;
-      }
-    }
-  return contour_.in_degrees ? fmt::format("longitude {:.10g}, latitude {:.10g}", original.x, original.y)
-                             : fmt::format("({:.12g}, {:.12g})", original.x, original.y);
 }
 
 void Placement::add_ring(const contours::ContourRing& ring, std::vector<std::string>& warnings) {
@@ -221,9 +184,9 @@ void Placement::add_checked(contours::ContourRing ring) {
       return;
     }
     contours::add_fault(faults_, contours::HasArea::no, [&]() -> contours::Fault {
-      return {place_text().where(one.lines.empty() ? 0 : one.lines[0]),
+      return {messages_.place_text().where(one.lines.empty() ? 0 : one.lines[0]),
               fmt::format("the ring that starts here at {} encloses no area: all its vertices lie on one line",
-                          one.points.empty() ? "nowhere" : in_file(one.points[0])),
+                          one.points.empty() ? "nowhere" : messages_.in_file(one.points[0])),
               "remove the ring", "the ring is left out"};
     });
   };
@@ -231,33 +194,48 @@ void Placement::add_checked(contours::ContourRing ring) {
     return take(ring);
   contours::RepairedRing repaired = contours::repair_ring(ring, ShapeRules::on_edge * frame_.step());
   if (!repaired.seams.empty())
-    contours::add_faults(faults_, repaired, ring, place_text());
+    add_seams(repaired, ring);
   for (contours::ContourRing& left : repaired.rings)
     take(left);
+}
+
+void Placement::add_seams(const contours::RepairedRing& repaired, const contours::ContourRing& ring) {
+  contours::add_faults(faults_, repaired, ring, messages_.place_text());
+  with_seams_.insert(ring.lines[0]);
+}
+
+/// Lines that end at both sides of the date line are a ring only if they are projected.
+void Placement::check_date_line() const {
+  if (contour_.joins_date_line && !contour_.in_degrees)
+    throw GeometryError(fmt::format("{}: lines end at longitudes 180 and -180; set 'projection = auto' in [shape], "
+                                    "which joins both sides",
+                                    contour_.source));
 }
 
 /// Throws if there are faults that are not repaired, or if nothing is left.
 void Placement::check_faults() const {
   contours::check_faults(faults_, contour_.source,
-                         rings_.empty() && touches_.faults == contours::Faults::repair ? contours::Faults::refuse
-                                                                                       : touches_.faults);
-}
-
-contours::PlaceText Placement::place_text() const {
-  return {[this](int line) { return where(contour_, line); }, [this](Vec2 p) { return in_file(p); }};
+                         rings_.empty() ? contours::Faults::refuse : touches_.faults); // a repair would leave nothing
 }
 
 /// Replaces the rings by those around the union of all polygons.
-void Placement::unite(std::vector<std::string>& notes) {
+void Placement::unite(std::vector<std::string>& notes, std::vector<std::string>& warnings) {
   Dissolved dissolved =
-      dissolve(rings_, frame_, {contour_.source, touches_.widest_gap, [this](Vec2 p) { return in_file(p); }});
+      dissolve(rings_, frame_, {contour_.source, touches_.widest_gap, [this](Vec2 p) { return messages_.in_file(p); }});
   rings_ = std::move(dissolved.rings);
   const double scale = normalization_.scale;
   notes.push_back(
-      fmt::format("{}: {} polygon{} united into an outline of {} rings; they share borders of length {:.4g} "
+      fmt::format("{}: {} polygon{} united into an outline of {} ring{}; they share borders of length {:.4g} "
                   "and overlap by an area of {:.4g}",
                   contour_.source, dissolved.polygons, dissolved.polygons == 1 ? " is" : "s are", rings_.size(),
-                  dissolved.shared_length / scale, std::fmax(0, dissolved.overlap) / (scale * scale)));
+                  rings_.size() == 1 ? "" : "s", dissolved.shared_length / scale,
+                  std::fmax(0, dissolved.overlap) / (scale * scale)));
+  if (const std::size_t lost = dissolved.covered.size(); lost > 0)
+    warnings.push_back(fmt::format("{}: this polygon lies inside of others and disappears in their union{}; if it is a "
+                                   "hole, make it a hole of the polygon around it, or a separate part to be subtracted "
+                                   "in 'geometry'",
+                                   where(contour_, dissolved.covered[0]),
+                                   lost == 1 ? "" : fmt::format(", and so do {} more", lost - 1)));
   if (dissolved.gaps > 0)
     notes.push_back(fmt::format("{}: {} gap{} between polygons, narrower than {:.3g} and {:.4g} in area, {} closed",
                                 contour_.source, dissolved.gaps, dissolved.gaps == 1 ? "" : "s",
@@ -275,7 +253,7 @@ void Placement::separate(const std::vector<SegmentPair>& meetings, SegmentGrid& 
     const std::vector<RingTouch> touches = part_touches(rings_, meetings, grid, frame_, {touches_.outside, false, gap});
     SegmentGrid separated(segments_of(rings_));
     if (const std::vector<SegmentPair> left = find_meetings(rings_, separated); left.empty()) {
-      tell_touches(touches, gap, warnings);
+      messages_.tell_touches(touches, gap, warnings);
       grid = std::move(separated);
       return;
     } else if (gap == least) {
@@ -291,38 +269,41 @@ void Placement::separate(const std::vector<SegmentPair>& meetings, SegmentGrid& 
 /// it. A repair has left out before what has no area, so that only meetings are listed then. Afterwards there are
 /// faults for which check_faults throws, because the rings are no longer those of the contour.
 void Placement::explain(const std::vector<SegmentPair>& meetings) {
-  bool within_rings = true;
   if (touches_.faults != contours::Faults::repair) {
-    const std::uint64_t before = faults_.repairable;
     repair_self_meetings(meetings);
-    if (faults_.repairable == before)
-      within_rings = !list_seams_in_file();
+    list_seams_in_file();
   }
   const SegmentGrid grid(segments_of(rings_));
   part_touches(rings_, find_meetings(rings_, grid), grid, frame_,
                {touches_.outside, false, ShapeRules::touch_gap * frame_.step()});
   const SegmentGrid separated(segments_of(rings_));
-  list_meetings(separated, find_meetings(rings_, separated), within_rings);
+  list_meetings(separated, find_meetings(rings_, separated));
 }
 
-/// Adds what has no area in the file, where a projection has moved two edges apart that cancel each other there.
-/// Returns whether there is something.
-bool Placement::list_seams_in_file() {
-  contours::Contour in_file = contour_;
-  std::erase_if(in_file.rings, [](const contours::ContourRing& ring) { return ring.in_file.empty(); });
-  for (contours::ContourRing& ring : in_file.rings)
-    ring.points = std::exchange(ring.in_file, {});
-  in_file.faults = {};
-  contours::repair_rings(in_file);
-  contours::add_faults(faults_, in_file.faults);
-  return !in_file.faults.empty();
+/// Adds what has no area in the file, where a projection has moved two edges apart that cancel each other there. Rings
+/// for which something without area is listed already are left out.
+void Placement::list_seams_in_file() {
+  for (const contours::ContourRing& ring : contour_.rings) {
+    if (ring.in_file.empty() || with_seams_.count(ring.lines[0]) > 0)
+      continue;
+    contours::Contour one;
+    one.source = contour_.source;
+    one.features = contour_.features;
+    one.is_map = contour_.is_map;
+    one.rings.push_back(ring);
+    one.rings[0].points = std::exchange(one.rings[0].in_file, {});
+    contours::repair_rings(one);
+    contours::add_faults(faults_, one.faults);
+    if (!one.faults.empty())
+      with_seams_.insert(ring.lines[0]);
+  }
 }
 
 /// Repairs rings that meet themselves; what they lose is a fault.
 void Placement::repair_self_meetings(const std::vector<SegmentPair>& meetings) {
   std::set<std::size_t> meeting_themselves;
   for (const auto& [i, j] : meetings)
-    if (const std::size_t ring = ring_and_line_of(i).first; ring == ring_and_line_of(j).first)
+    if (const std::size_t ring = ring_and_line_of(rings_, i).first; ring == ring_and_line_of(rings_, j).first)
       meeting_themselves.insert(ring);
   std::vector<LatticeRing> given = std::exchange(rings_, {});
   for (std::size_t k = 0; k < given.size(); ++k) {
@@ -333,130 +314,40 @@ void Placement::repair_self_meetings(const std::vector<SegmentPair>& meetings) {
     const contours::ContourRing ring{given[k].points, given[k].lines, given[k].markers, {}, given[k].polygon};
     contours::RepairedRing repaired = contours::repair_ring(ring, ShapeRules::on_edge * frame_.step());
     if (!repaired.seams.empty())
-      contours::add_faults(faults_, repaired, ring, place_text());
+      add_seams(repaired, ring);
     for (contours::ContourRing& left : repaired.rings)
       rings_.push_back({std::move(left.points), std::move(left.lines), std::move(left.markers), left.polygon});
   }
 }
 
-/// Adds a fault for each pair of rings that meet; rings that meet themselves count if `within_rings`.
-void Placement::list_meetings(const SegmentGrid& grid, std::span<const SegmentPair> pairs, bool within_rings) {
+/// Adds a fault for each pair of rings that meet, and for each ring that meets itself, unless something without area is
+/// listed for this ring, which may be the reason.
+void Placement::list_meetings(const SegmentGrid& grid, std::span<const SegmentPair> pairs) {
   std::set<std::pair<std::size_t, std::size_t>> seen;
   for (const SegmentPair& pair : pairs) {
-    const std::size_t first = ring_and_line_of(pair[0]).first, second = ring_and_line_of(pair[1]).first;
-    if ((first != second || within_rings) && seen.insert({first, second}).second)
-      contours::add_fault(faults_, contours::HasArea::yes, [&] { return fault_of(grid, pair); });
+    const std::size_t first = ring_and_line_of(rings_, pair[0]).first, second = ring_and_line_of(rings_, pair[1]).first;
+    if ((first != second || with_seams_.count(rings_[first].lines[0]) == 0) && seen.insert({first, second}).second)
+      contours::add_fault(faults_, contours::HasArea::yes,
+                          [&] { return messages_.meeting(rings_, grid, pair, touches_.dissolve); });
   }
 }
 
-std::pair<std::size_t, int> Placement::ring_and_line_of(LocalIndex segment) const {
-  auto index = at(segment);
-  std::size_t ring = 0;
-  while (index >= rings_[ring].points.size())
-    index -= rings_[ring++].points.size();
-  return {ring, rings_[ring].lines[index]};
-}
-
-void Placement::tell_touches(const std::vector<RingTouch>& touches, double gap,
-                             std::vector<std::string>& warnings) const {
-  const std::size_t told = std::min(touches.size(), most_told);
-  for (const RingTouch& touch : std::span(touches).first(told))
-    warnings.push_back(
-        fmt::format("{}: two rings touch at {} (the other one: {}); they are moved apart by "
-                    "{:.2g} there, so that no triangles meet across this point: nothing is connected there, whatever "
-                    "meshing.connect says",
-                    where(contour_, touch.line), in_file(touch.place), line_or_feature(contour_, touch.other_line),
-                    gap / normalization_.scale));
-  if (told < touches.size())
-    warnings.push_back(fmt::format("{}: rings touch in {} more places and are moved apart there", contour_.source,
-                                   touches.size() - told));
-}
-
-/// The second of two edges, for a message that begins with the line of the first.
-std::string Placement::other_edge(const std::array<int, 2>& lines) const {
-  if (lines[0] == lines[1])
-    return contour_.features.empty() ? "another edge" : "another edge of this feature";
-  return (contour_.features.empty() ? "the edge that starts at " : "an edge of ") + line_or_feature(contour_, lines[1]);
-}
-
-/// Returns whether a ring of longitudes and latitudes jumps from one side of the meridian of 180 degrees to the other.
-bool crosses_date_line(const std::vector<Vec2>& ring) {
-  constexpr double largest_longitude = 2 * half_turn, largest_latitude = 0.5 * half_turn;
-  bool jumps = false;
-  for (std::size_t k = 0; k < ring.size(); ++k) {
-    const Vec2 here = ring[k], next = ring[k + 1 < ring.size() ? k + 1 : 0];
-    if (std::fabs(here.x) > largest_longitude || std::fabs(here.y) > largest_latitude)
-      return false;
-    jumps = jumps || std::fabs(here.x - next.x) > half_turn;
+/// Lists the crossings within each polygon, which the even-odd rule would turn into holes of the union.
+void Placement::list_crossings_in_polygons() {
+  std::map<int, std::vector<LatticeRing>> by_polygon;
+  for (const LatticeRing& ring : rings_)
+    by_polygon[ring.polygon].push_back(ring);
+  std::vector<LatticeRing> all = std::exchange(rings_, {});
+  for (auto& [number, rings] : by_polygon) {
+    rings_ = std::move(rings);
+    const SegmentGrid grid(segments_of(rings_));
+    std::vector<SegmentPair> meetings = find_meetings(rings_, grid);
+    std::erase_if(meetings, [&](const SegmentPair& pair) {
+      return meeting_of(grid.segments()[at(pair[0])], grid.segments()[at(pair[1])]) != Meeting::crossing;
+    });
+    list_meetings(grid, meetings);
   }
-  return jumps;
-}
-
-/// Returns what a user can do where edges of a file of lines meet.
-/// @param same both edges belong to one ring
-const char* remedy_of_lines(bool same, bool crossing) {
-  if (same)
-    return crossing ? "a ring must not cross itself; is a blank line between two rings missing?"
-                    : "a ring touches itself; is a blank line between two rings missing?";
-  return crossing ? "two rings must not cross; to join areas, make each one a separate part and unite them in "
-                    "'geometry', or dissolve their common borders first, as QGIS does"
-                  : "two rings touch or overlap along an edge, or cross at a vertex; make each one a separate part and "
-                    "unite them in 'geometry', or dissolve their common borders first, as QGIS does";
-}
-
-contours::Fault Placement::fault_of(const SegmentGrid& grid, const SegmentPair& pair) const {
-  const Segment &s = grid.segments()[at(pair[0])], &t = grid.segments()[at(pair[1])];
-  const auto [first_ring, line] = ring_and_line_of(pair[0]);
-  const auto [second_ring, other_line] = ring_and_line_of(pair[1]);
-  const bool same = first_ring == second_ring, crossing = meeting_of(s, t) == Meeting::crossing;
-  const bool is_map = contour_.is_map,
-             one_polygon = rings_[first_ring].polygon == rings_[second_ring].polygon && rings_[first_ring].polygon != 0;
-  const char* remedy =
-      is_map && crosses_date_line(rings_[first_ring].points)
-          ? "the ring seems to cross the meridian of 180 degrees; set 'projection = auto' in [shape], which joins both "
-            "sides"
-      : is_map && same        ? "a ring must neither cross nor touch itself; ogr2ogr -makevalid may repair it"
-      : is_map && one_polygon ? "rings of one polygon must not cross; ogr2ogr -makevalid may repair it"
-      : is_map ? "polygons of a map must neither overlap nor share borders; set 'overlap = union' in the "
-                 "section of this contour to unite them"
-               : remedy_of_lines(same, crossing);
-  return {where(contour_, line),
-          fmt::format("{} {} {} near {}", contour_.features.empty() ? "the edge that starts here" : "an edge",
-                      crossing ? "crosses" : "touches", other_edge({line, other_line}), in_file(meeting_point(s, t))),
-          remedy, ""};
-}
-
-/// Returns a warning for every ring that encloses a separate piece, except the one with the largest area. Maps mean
-/// such pieces.
-void Placement::tell_pieces(const Polygon& polygon, std::vector<std::string>& warnings) const {
-  if (contour_.is_map)
-    return;
-  const std::span<const Segment> segments = polygon.grid.segments();
-  std::vector<int> starts; // lines of the rings that are not holes
-  double largest = 0;
-  std::size_t main = 0;
-  for (std::size_t k = 0; k < polygon.rings.size(); ++k) {
-    const Polygon::Ring& ring = polygon.rings[k];
-    const Vec2 origin = segments[ring.first].a;
-    double twice_area = 0;
-    for (const Segment& s : segments.subspan(ring.first, ring.count))
-      twice_area += cross(s.a - origin, s.b - origin);
-    if ((twice_area > 0) == ring.reversed)
-      continue;
-    if (std::fabs(twice_area) > largest) {
-      largest = std::fabs(twice_area);
-      main = starts.size();
-    }
-    starts.push_back(rings_[k].lines[0]);
-  }
-  std::size_t told = 0;
-  for (std::size_t k = 0; k < starts.size(); ++k)
-    if (k != main && ++told <= most_told)
-      warnings.push_back(fmt::format("{}: the ring that starts here lies outside the area of all others and becomes a "
-                                     "separate piece",
-                                     where(contour_, starts[k])));
-  if (told > most_told)
-    warnings.push_back(fmt::format("{}: {} more rings become separate pieces", contour_.source, told - most_told));
+  rings_ = std::move(all);
 }
 
 void Placement::orient(Polygon& polygon) {

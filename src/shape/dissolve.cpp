@@ -3,7 +3,7 @@
 
 #include "core/angle.hpp"
 #include "geometry/box_tree.hpp"
-#include "geometry/predicates.hpp"
+#include "geometry/even_odd.hpp"
 #include "shape/arrangement.hpp"
 #include "shape/contour_polygon.hpp"
 #include "shape/part_images.hpp"
@@ -35,14 +35,8 @@ double area_of(std::span<const Vec2> ring) {
 /// Does the ring contain a point that is not on it?
 bool holds(std::span<const Vec2> ring, Vec2 p) {
   bool inside = false;
-  for (std::size_t k = 0; k < ring.size(); ++k) {
-    Vec2 a = ring[k], b = ring[(k + 1) % ring.size()];
-    if ((a.y > p.y) == (b.y > p.y))
-      continue;
-    if (a.y > b.y)
-      std::swap(a, b);
-    inside = inside != (geometry::orient2d(a, b, p) > 0);
-  }
+  for (std::size_t k = 0; k < ring.size(); ++k)
+    inside = inside != geometry::crosses_ray(ring[k], ring[(k + 1) % ring.size()], p);
   return inside;
 }
 
@@ -79,7 +73,12 @@ public:
 
   Dissolved make() {
     Dissolved found;
+    is_shown_.assign(polygons_.size(), false);
     classify();
+    for (std::size_t k = 0; k < polygons_.size(); ++k)
+      if (!is_shown_[k])
+        found.covered.push_back(polygons_[k].lines[0]);
+    std::sort(found.covered.begin(), found.covered.end());
     link();
     if (options_.widest_gap > 0)
       close_gaps(found);
@@ -122,6 +121,7 @@ private:
 
   void classify();
   void keep(const Arrangement::Piece& piece, std::size_t left, std::size_t right);
+  void note_shown(const Arrangement::Piece& piece, std::size_t left, std::size_t right);
   void link();
   /// Which of the pieces that depart from the end of a piece follows it.
   enum class Side {
@@ -139,6 +139,7 @@ private:
   const Arrangement arrangement_;
   const Frame& frame_;
   std::vector<Kept> kept_;
+  std::vector<bool> is_shown_;         // of each polygon: does a piece of it bound the union, or a gap between others?
   std::vector<std::size_t> departing_; // kept pieces, by the vertex at which they start
   double shared_length_ = 0;
 };
@@ -168,8 +169,22 @@ void Union::classify() {
         ++right;
       }
     });
+    note_shown(piece, left, right);
     keep(piece, left, right);
     ++number;
+  }
+}
+
+/// A polygon along a piece shows there, unless others cover both sides of the piece.
+void Union::note_shown(const Arrangement::Piece& piece, std::size_t left, std::size_t right) {
+  const auto note = [&](int polygon, bool on_left) {
+    if ((on_left ? left - 1 : left) == 0 || (on_left ? right : right - 1) == 0)
+      is_shown_[static_cast<std::size_t>(polygon)] = true;
+  };
+  note(piece.part, true);
+  for (LocalIndex t = piece.first_twin; t < piece.first_twin + piece.twin_count; ++t) {
+    const Arrangement::Twin& twin = arrangement_.twins()[static_cast<std::size_t>(t)];
+    note(twin.part, twin.along);
   }
 }
 

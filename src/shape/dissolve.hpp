@@ -18,8 +18,10 @@ struct Dissolved {
   std::size_t polygons = 0;       ///< number of united polygons
   double shared_length = 0;       ///< length of the borders that two or more polygons share
   double overlap = 0;             ///< sum of the areas of the polygons minus the area of their union
-  std::size_t gaps = 0;           ///< number of narrow gaps between polygons that were closed
-  double gap_area = 0;            ///< sum of their areas
+  /// A line of each polygon that lies inside of others, so that nothing of it remains; ascending.
+  std::vector<int> covered{};
+  std::size_t gaps = 0; ///< number of narrow gaps between polygons that were closed
+  double gap_area = 0;  ///< sum of their areas
 };
 
 /// How polygons are united, and how messages name the file and places in it.

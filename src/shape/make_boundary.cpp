@@ -407,7 +407,8 @@ void BoundaryMaker::report_node(LocalIndex node) const {
   const Vec2 p = nodes_->point(node);
   if (arrivals == departures)
     throw GeometryError(fmt::format("the boundary of the geometry '{}' touches itself at {} (part {}); "
-                                    "expected curves that do not meet: move the parts apart, or make them overlap. No "
+                                    "expected curves that do not meet: move the parts apart, or make them overlap; or "
+                                    "put contours that touch into one file, whose rings may touch in a vertex. No "
                                     "triangles meet across a point, whatever meshing.connect says",
                                     region_.text(), Place(p, 12), list));
   throw GeometryError(

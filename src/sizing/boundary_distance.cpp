@@ -136,7 +136,8 @@ BoundarySize::BoundarySize(const SizeField& field, const geometry::Boundary& bou
     for (const int part : parts_named(named.name, boundary.part_names)) {
       const NamedSize& first = *size_of_part.emplace(part, &named).first->second;
       if (first.size != named.size)
-        throw ConfigError(fmt::format("the boundary {} has two sizes: {:.6g} as {} and {:.6g} as {}",
+        throw ConfigError(fmt::format("the boundary {} has two sizes: {:.6g} as {} and {:.6g} as {}; name each "
+                                      "part of the boundary once, by the text behind the dot of its name",
                                       trime::quoted(boundary.part_names[static_cast<std::size_t>(part)]), first.size,
                                       trime::quoted(first.name), named.size, trime::quoted(named.name)));
     }

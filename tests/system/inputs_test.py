@@ -402,7 +402,7 @@ class Maps(unittest.TestCase):
         gap = [[5, 0], [10, 0], [10, 5], [5, 5], [5.001, 2.5], [5, 0]]
         nested = [feature("a", square(0, 0, 5)), feature("b", square(3, 2, 5)), feature("c", square(1, 1, 1)),
                   feature("d", square(20, 0, 9), square(22, 2, 4)), feature("e", square(23, 3, 1))]
-        cases = ((tiles, r"500 polygons are united .* 1 rings; .* length 955 and overlap by an area of 0\n", 1, 0, 500),
+        cases = ((tiles, r"500 polygons are united .* 1 ring; .* length 955 and overlap by an area of 0\n", 1, 0, 500),
                  ([feature("a", square(0, 0, 5)), feature("b", square(5, 5, 5))], "2 polygons are united", 2, 0, 50),
                  ([feature("a", square(0, 0, 5)), feature("b", gap)], "2 polygons are united", 2, 0, 49.9975),
                  (nested, r"5 polygons are united .* 4 rings; .* overlap by an area of 7\n", 3, 1, 25 + 25 - 6 + 66))

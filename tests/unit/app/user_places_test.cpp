@@ -55,6 +55,15 @@ TEST(UserPlaces, KnowTheLineWhereTheRingOfALoopBegins) {
   EXPECT_EQ(UserPlaces().ring_lines(boundary), (std::vector<std::int32_t>{0, 0, 0}));
 }
 
+TEST(UserPlaces, AddLongitudeAndLatitudeWhereTheyAreKnown) {
+  UserPlaces places = square_as_given();
+  places.set_on_earth([](Vec2 p) { return p.x < 8 ? std::optional(p + Vec2{5, 60}) : std::nullopt; });
+  EXPECT_EQ(explained(places, fmt::format("at {}", Place(Vec2{0.5, 0.9}))),
+            "at (0.5, 0.9) [ring.xy:3: longitude 5.5, latitude 60.9]");
+  EXPECT_EQ(explained(places, fmt::format("at {}", Place(Vec2{7, 7}))), "at (7, 7) [longitude 12, latitude 67]");
+  EXPECT_EQ(explained(places, fmt::format("at {}", Place(Vec2{9, 9}))), "at (9, 9)");
+}
+
 TEST(UserPlaces, LeaveTheRestAlone) {
   for (const char* text : {"atan2(0.5, 0.5) is no place", "between (0.5, 0.5) and the box", ""})
     EXPECT_EQ(explained(square_as_given(), text), text);

@@ -146,8 +146,8 @@ TEST(GeoJson, MistakesAreLocated) {
     EXPECT_NE(message.find(words), std::string::npos) << message;
   };
   expect("{\"type\": \"Polygon\",\n\"coordinates\": [[[0, 0], [1 0]]]}", "a.geojson:2: ", "expected JSON, found");
-  expect("0 0\n1 0\n", "a.geojson:1: ", "expected JSON");
-  expect("", "a.geojson:1: ", "expected JSON");
+  expect("0 0\n1 0\n", "a.geojson: ", "expected JSON, found '0' at character 3");
+  expect("", "a.geojson: ", "expected JSON");
   expect(feature_collection.substr(0, 200), "a.geojson:", "expected JSON");
   expect(geometry_of("Polygon", "[[[0, 0],\n[1], [1, 1]]]"), "a.geojson:3: ", "two numbers [x, y]");
   expect(geometry_of("Polygon", "[[[0, 0],\n[\"1\", 2], [1, 1]]]"), "a.geojson:3: ", "expected only numbers in");
@@ -238,6 +238,59 @@ TEST(GeoJson, OpenLinesThatJoinInTheirEndsAreOneRing) {
   EXPECT_EQ(contour.rings[0].points, (std::vector<Vec2>{{0, 0}, {0, 1}, {1, 1}, {1, 0}}));
   EXPECT_EQ(contour.rings[0].markers, (std::vector<int>{1, 1, 2, 2}));
   EXPECT_EQ(contour.marker_names, (std::vector<std::string>{"land", "open"}));
+}
+
+TEST(GeoJson, TheFirstLineIsNotNamed) { // most programs write a map in one line
+  const std::string open = "[[0, 0], [1, 0], [0, 1]]", square = "[[0, 0], [0, 0], [1, 0], [0, 1], [0, 0]]";
+  const std::string start = R"({"type": "Feature", "properties": {"name": "bay"}, "geometry": {"type": )";
+  const auto line = [&](const char* type, const std::string& places) {
+    return R"({"features": [)" + start + "\"" + type + R"(", "coordinates": )" + places + "}}]}";
+  };
+  EXPECT_EQ(error_of(line("LineString", open)).find("a.geojson (feature 1, 'bay'): "), 0u);
+  EXPECT_EQ(parse_geojson(line("Polygon", "[" + square + "]"), "a.geojson").warnings.at(0),
+            "a.geojson (feature 1, 'bay'): vertex (0, 0) repeats the one before it; the two are merged");
+}
+
+const std::string upper = "[[0, 0], [0, 1], [1, 1]]", lower = "[[0, 0], [1, 0], [1, 1]]";
+
+TEST(GeoJson, ASpikeOfALineIsKeptForTheRepair) {
+  const std::string spike = "[[0, 0], [0, 1], [0.5, 1], [0.5, 1], [0.5, 3], [0.5, 1], [1, 1]]";
+  const Contour contour = parse_geojson(collection(feature(R"("name": "land")", "LineString", spike) + "," +
+                                                   feature(R"("name": "open")", "LineString", lower)),
+                                        "a");
+  ASSERT_EQ(contour.rings.size(), 1u);
+  EXPECT_EQ(contour.rings[0].points, (std::vector<Vec2>{{0, 0}, {0, 1}, {0.5, 1}, {0.5, 3}, {0.5, 1}, {1, 1}, {1, 0}}));
+  EXPECT_EQ(contour.rings[0].lines, (std::vector<int>{1, 1, 1, 1, 1, 2, 2}));
+  EXPECT_EQ(contour.warnings.size(), 1u); // of the vertex that occurs twice
+}
+
+TEST(GeoJson, ALineThatIsGivenTwiceIsUsedOnce) {
+  const Contour contour = parse_geojson(collection(feature(R"("name": "a")", "LineString", upper) + "," +
+                                                   feature(R"("name": "b")", "LineString", lower) + "," +
+                                                   feature(R"("name": "c")", "LineString", "[[1, 1], [0, 1], [0, 0]]")),
+                                        "a");
+  ASSERT_EQ(contour.rings.size(), 1u);
+  EXPECT_EQ(contour.rings[0].points.size(), 4u);
+  ASSERT_EQ(contour.warnings.size(), 1u);
+  EXPECT_NE(contour.warnings[0].find("(feature 3, 'c'): this line is the same as an earlier one"), std::string::npos);
+}
+
+Contour cut_at_date_line(const std::string& east, const std::string& west) {
+  return parse_geojson(collection(feature("", "LineString", east) + "," + feature("", "LineString", west)), "a", "",
+                       Faults::collect);
+}
+
+TEST(GeoJson, LinesThatAreCutAtTheDateLineAreJoined) {
+  const std::string east = "[[180, 1], [179, 1], [179, 0], [180, 0]]";
+  const Contour joined = cut_at_date_line(east, "[[-180, 0], [-179, 0], [-179, 1], [-180, 1]]");
+  ASSERT_EQ(joined.rings.size(), 1u);
+  EXPECT_TRUE(joined.joins_date_line);
+  EXPECT_EQ(joined.rings[0].points, (std::vector<Vec2>{{180, 1}, {179, 1}, {179, 0}, {180, 0}, {-179, 0}, {-179, 1}}));
+  for (const char* west : {"[[-180, 0], [-179, 0], [-179, 1], [-180, 1.1]]", // ends elsewhere
+                           "[[-180, 0], [0, 0], [0, 1], [-180, 1]]"}) {      // too long to tell on which side it lies
+    const std::string message = message_of<GeometryError>([&] { cut_at_date_line(east, west); });
+    EXPECT_NE(message.find("no other line shares"), std::string::npos) << message;
+  }
 }
 
 /// Shapefiles may hold them. Once the search for lines that stay open never came past such an end.

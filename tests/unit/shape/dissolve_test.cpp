@@ -79,5 +79,16 @@ TEST(Dissolve, GapsThatLeadToTheOutsideStay) {
   EXPECT_EQ(found.rings[0].points.size(), 8u);
 }
 
+TEST(Dissolve, PolygonsOfWhichNothingRemainsAreNamed) {
+  const LatticeRing land = ring_of(1, {{0.1, 0.1}, {0.9, 0.1}, {0.9, 0.9}, {0.1, 0.9}}),
+                    inside = ring_of(2, {{0.3, 0.3}, {0.5, 0.3}, {0.5, 0.5}}),
+                    beyond = ring_of(3, {{0.8, 0.3}, {0.95, 0.3}, {0.95, 0.5}}),
+                    lake = ring_of(1, {{0.6, 0.6}, {0.7, 0.6}, {0.7, 0.7}}),
+                    in_lake = ring_of(4, {{0.6, 0.6}, {0.7, 0.6}, {0.7, 0.7}});
+  EXPECT_EQ(united({land, inside, beyond}, 0).covered, (std::vector<int>{2}));
+  EXPECT_EQ(united({land, lake, in_lake}, 0).covered, (std::vector<int>{})); // it fills the lake
+  EXPECT_EQ(united({land, ring_of(5, land.points)}, 0).covered, (std::vector<int>{}));
+}
+
 } // namespace
 } // namespace trime::shape

@@ -9,7 +9,7 @@
 #include <span>
 #include <string>
 
-namespace trime::app {
+namespace trime::projection {
 
 /// Counts the edges that were divided.
 struct DividedEdges {
@@ -33,4 +33,4 @@ struct DividedEdges {
 /// @note Serial.
 DividedEdges divide_long_edges(std::span<contours::Contour> contours, const std::string& plane);
 
-} // namespace trime::app
+} // namespace trime::projection

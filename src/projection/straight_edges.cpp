@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/straight_edges.hpp"
+#include "projection/straight_edges.hpp"
 
 #include "core/angle.hpp"
 #include "geometry/box_tree.hpp"
@@ -11,7 +11,7 @@
 #include <optional>
 #include <vector>
 
-namespace trime::app {
+namespace trime::projection {
 namespace {
 
 using contours::Contour;
@@ -37,7 +37,7 @@ struct End {
 class EdgeDivider {
 public:
   EdgeDivider(const std::string& system, const std::string& plane, double allowed)
-      : transform_(system, plane), geographic_(projection::is_geographic(system)), allowed_(allowed) {}
+      : transform_(system, plane), geographic_(is_geographic(system)), allowed_(allowed) {}
 
   /// True for edges that surely stay within the allowed distance: the curvature of a line of the map in the plane is
   /// about tan(latitude) divided by the radius of the Earth; four times as much is certain.
@@ -97,7 +97,7 @@ private:
     halve(middle, b, halvings - 1, vertices);
   }
 
-  projection::Transform transform_;
+  Transform transform_;
   bool geographic_;
   double allowed_;
 };
@@ -260,7 +260,7 @@ DividedEdges divide_long_edges(std::span<Contour> contours, const std::string& p
     return divided;
   const double on_edge = on_edge_share * longer_side(contours, &ContourRing::in_file);
   const auto system_of = [](const Contour& contour) {
-    return contour.crs.empty() ? std::string(projection::lon_lat) : contour.crs;
+    return contour.crs.empty() ? std::string(lon_lat) : contour.crs;
   };
   std::vector<std::string> done;
   for (const Contour& first : contours) {
@@ -279,4 +279,4 @@ DividedEdges divide_long_edges(std::span<Contour> contours, const std::string& p
   return divided;
 }
 
-} // namespace trime::app
+} // namespace trime::projection
