@@ -138,7 +138,7 @@ std::vector<io::Text> texts(const Metadata& metadata, const CommandLine& line) {
 } // namespace
 
 std::vector<std::string> groups_to_refine() {
-  return {"checks", "tags", "history", "rings", "sharp_corners", "normalization"};
+  return {"checks", "tags", "history", "rings", "sharp_corners", "curves", "normalization"};
 }
 
 bool says_complete(const Metadata& metadata) {
@@ -166,7 +166,7 @@ Metadata refined_metadata(const Metadata& metadata, const refinement::Refined& r
                         {"largest_size", sizes.largest},
                         {"complete", std::int64_t{!stopped_early && mesh::all_passed(checks)}}});
   set(made.attributes, refinement_attributes(metadata, refined, line));
-  for (const char* kept : {"history", "rings", "sharp_corners", "normalization"})
+  for (const char* kept : {"history", "rings", "sharp_corners", "curves", "normalization"})
     if (const MetadataGroup* group = io::find_group(metadata, kept))
       made.groups.push_back(*group);
   made.groups.push_back(record::quality_group(refined.quality));

@@ -61,6 +61,7 @@ public:
     mesh::DistributedMesh made;
     place_points(made);
     divide_facets(made);
+    divide_curves(made);
     divide_triangles(made);
     made.hash = static_cast<std::uint64_t>(comm_.sum(static_cast<std::int64_t>(mesh::partial_hash(made))));
     return made;
@@ -81,6 +82,7 @@ private:
   void place_points(mesh::DistributedMesh& made) const;
   std::vector<float> sizes_of_facets() const;
   void divide_facets(mesh::DistributedMesh& made) const;
+  void divide_curves(mesh::DistributedMesh& made) const;
   void divide_triangles(mesh::DistributedMesh& made) const;
   std::vector<LocalIndex> sorted(std::span<const Ids> triangles, std::size_t points) const;
 
@@ -226,6 +228,44 @@ void Refiner::divide_facets(mesh::DistributedMesh& made) const {
     made.facet_sizes.push_back(half.size);
   }
   made.facet_slab = {comm_.exclusive_scan(std::ssize(halves)), 2 * mesh_.facet_slab.total};
+}
+
+/// Each edge on a curve inside becomes two, which meet in its middle, on the rank that owns its lower end.
+void Refiner::divide_curves(mesh::DistributedMesh& made) const {
+  struct CurveEdge {
+    std::array<GlobalId, 2> ends;
+    std::int64_t curve;
+  };
+  if (mesh_.curve_slab.total == 0)
+    return;
+  const std::vector<std::int64_t> firsts = comm_.all_gather(mesh_.point_slab.first);
+  Outbox<CurveEdge> away;
+  for (std::size_t k = 0; k < mesh_.curve_edges.size(); ++k) {
+    const GlobalId low = std::min(mesh_.curve_edges[k][0], mesh_.curve_edges[k][1]);
+    const auto owner = static_cast<int>(std::ranges::upper_bound(firsts, low) - firsts.begin()) - 1;
+    away[owner].push_back({mesh_.curve_edges[k], mesh_.curve_numbers[k]});
+  }
+  std::vector<CurveEdge> halves;
+  for (const comm::Message& message : send(comm_, away))
+    for (const CurveEdge& given : comm::from_bytes<CurveEdge>(message.data)) {
+      const auto [low, high] = std::minmax(given.ends[0], given.ends[1]);
+      const auto lower = static_cast<LocalIndex>(low - local_.first_point);
+      for (LocalIndex edge = edges_.before(lower); edge < edges_.before(lower + 1); ++edge)
+        if (local_.global_id(edges_.upper(edge)) == high) {
+          const GlobalId from = ids_[at(given.ends[0] == low ? lower : edges_.upper(edge))],
+                         to = ids_[at(given.ends[0] == low ? edges_.upper(edge) : lower)];
+          halves.push_back({{from, id_of_edge(edge)}, given.curve});
+          halves.push_back({{id_of_edge(edge), to}, given.curve});
+        }
+    }
+  std::ranges::sort(halves, {}, [](const CurveEdge& half) {
+    return std::array{std::min(half.ends[0], half.ends[1]), std::max(half.ends[0], half.ends[1])};
+  });
+  for (const CurveEdge& half : halves) {
+    made.curve_edges.push_back(half.ends);
+    made.curve_numbers.push_back(static_cast<std::int32_t>(half.curve));
+  }
+  made.curve_slab = {comm_.exclusive_scan(std::ssize(halves)), 2 * mesh_.curve_slab.total};
 }
 
 /// Returns the canonical order of triangles. @pre their lowest vertices, which come first, are points of this rank

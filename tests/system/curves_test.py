@@ -250,6 +250,26 @@ class Curves(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual((self.directory / "again.mesh").read_bytes(), (self.directory / "mesh.mesh").read_bytes())
 
+    def test_refine(self):
+        """Each edge on a curve becomes two, with the same name."""
+        self.write("x.xy", [(0.2, 0.2), (0.8, 0.8)])
+        self.write("y.xy", [(0.2, 0.8), (0.8, 0.2)])
+        mesh = self.mesh(section("x", "x.xy") + section("y", "y.xy"))
+        made = []
+        for ranks in (1, 3):
+            fine = self.directory / f"fine{ranks}.h5"
+            done = run("refine", self.directory / "mesh.h5", fine, ranks=ranks)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            judged = subprocess.run([CHECK, fine], capture_output=True, text=True, check=False)
+            self.assertEqual(judged.returncode, 0, judged.stdout)
+            refined = Mesh(fine)
+            made.append((refined.edges.tolist(), refined.names))
+            self.assertEqual(len(refined.edges), 2 * len(mesh.edges))
+            self.assertEqual(refined.nodes(), mesh.nodes())
+            for name in ("x", "y"):
+                self.assertAlmostEqual(refined.length(name), mesh.length(name), delta=1e-11)
+        self.assertEqual(made[0], made[1])
+
     def test_fixed_points_and_islands(self):
         """A fixed point at a vertex of a curve, and a curve around a hole of the shape."""
         (self.directory / "points.xy").write_text("0.3 0.6\n")
