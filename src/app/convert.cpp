@@ -60,6 +60,7 @@ std::string made_text(const Metadata& metadata) {
                                    {"command", "command_line"},
                                    {"method", "method"},
                                    {"stopped", "stop_reason"},
+                                   {"refined from", "refined_from"},
                                    {"crs", "crs"}})
     if (const std::string value = value_text(metadata, name); !value.empty())
       text += fmt::format("{:<13} {}\n", what, value);

@@ -106,8 +106,8 @@ void warn(const StoredShape& shape, const refinement::BoundaryMiddles& middles, 
                 "shape: {}",
                 all, from, shape.reason);
   else if (middles.straight > 0)
-    log.warning("{} of {} new boundary points lie in the middles of boundary edges, because the mesh follows a "
-                "simplified boundary there, and not the curves of the shape",
+    log.warning("{} of {} new boundary points lie in the middles of boundary edges, because no curve of the "
+                "shape leads from one end of these edges to the other",
                 middles.straight, all);
   if (middles.refused > 0)
     log.warning("{} of {} new boundary points lie in the middles of boundary edges, because on the curve of the shape "
@@ -134,9 +134,8 @@ ExitCode refine(const CommandLine& line, io::RunFiles* files, const comm::Commun
   const StoredShape shape = stored_shape(metadata, from, comm);
   {
     const mesh::DistributedMesh mesh = io::read_mesh(from, metadata, comm);
-    refinement::Surroundings surroundings{shape.input ? shape.input->domain().frame()
-                                                      : frame_around(mesh, metadata, comm),
-                                          shape.input ? &shape.input->boundary() : nullptr};
+    refinement::Surroundings surroundings{
+        shape.input ? shape.input->domain().frame() : frame_around(mesh, metadata, comm), shape.curves()};
     take_promises(metadata, surroundings);
     refined = refinement::refine(comm, mesh, surroundings);
   }

@@ -2,7 +2,9 @@
 #include "app/stored_shape.hpp"
 
 #include "app/config.hpp"
+#include "app/size_builder.hpp"
 #include "app/user_places.hpp"
+#include "meshing/meshed_curves.hpp"
 #include "trime/core/error.hpp"
 #include "trime/core/log.hpp"
 
@@ -33,6 +35,21 @@ std::string difference(const io::Metadata& metadata, const geometry::Boundary& b
   return {};
 }
 
+/// Does the mesh follow a simplified boundary?
+bool is_simplified(const io::Metadata& metadata) {
+  if (!io::find_group(metadata, "rings"))
+    return true; // a step of a run
+  const auto& states = io::column_of<std::string>(metadata, "rings", "state");
+  return std::ranges::any_of(states, [](const std::string& state) { return state != "kept"; });
+}
+
+/// Returns the curves of the run. Collective.
+geometry::Boundary simplified_curves(const RunOptions& options, ShapeInput& input, const comm::Communicator& comm) {
+  input.set_fixed_points(read_fixed_points(options, input, comm));
+  const BuiltSize size = build_size(options, input.domain(), comm);
+  return meshing::meshed_curves(comm, input.domain(), *size.field, placed_options(options, input, comm));
+}
+
 } // namespace
 
 StoredShape stored_shape(const io::Metadata& metadata, const std::string& path, const comm::Communicator& comm) {
@@ -50,6 +67,8 @@ StoredShape stored_shape(const io::Metadata& metadata, const std::string& path, 
     UserPlaces places;
     stored.input = read_shape(options, ShapeUse::boundary, comm, quiet, places);
     stored.reason = difference(metadata, stored.input->boundary());
+    if (stored.reason.empty() && is_simplified(metadata))
+      stored.simplified = simplified_curves(options, *stored.input, comm);
   } catch (const Error& error) {
     stored.reason = error.what();
   }

@@ -26,7 +26,7 @@ public:
 
   /// @brief Returns the point at half the length of the curve from `a` to `b`, or nothing. There is
   /// no such point if an end does not lie on the boundary, or if the curve between them is much longer than the edge or
-  /// strays far from it. There is none either if the middle belongs to another part of the shape. If the ends lie near
+  /// strays far from it. The middle must not belong to another part of the shape. If the ends lie near
   /// the curve, as they do where the boundary was simplified a little, so does the result. It lies near the middle of a
   /// and b, and is not rounded.
   /// @param b the image of the second end next to `a`; the interior lies on the left of a -> b

@@ -286,8 +286,9 @@ std::vector<LocalIndex> Refiner::sorted(std::span<const Ids> triangles, std::siz
   return order;
 }
 
-/// Each triangle becomes four, whose lowest vertices are points of this rank, too: the lowest vertex of the triangle
-/// and the points on the two edges from it have new ids below all others, and each of the four has one of them.
+/// Each triangle becomes four, whose lowest vertices are points of this rank, too. The lowest vertex of the triangle
+/// and the points on the two edges from it have the lowest new ids, and each of the four triangles has one of these
+/// points.
 void Refiner::divide_triangles(mesh::DistributedMesh& made) const {
   std::vector<Ids> all(4 * at(local_.owned_triangles));
   thread_loop(local_.owned_triangles, 512, [&](std::ptrdiff_t item, int) {

@@ -187,16 +187,17 @@ class Refine(unittest.TestCase):
             self.compare(fine_path, self.refine(fine_path, "finest.h5")[0])
 
     def test_simplified_coast(self):
-        """Most new vertices lie near the coast; where the mesh follows a simplified one, in the middles of edges."""
+        """Nearly all new vertices lie on the coast as the run has simplified it."""
         path = self.mesh(ROOT / "configs" / "coast.ini", "meshing.points=1500")
         fine_path, output = self.refine(path)
-        self.assertIn("because the mesh follows a simplified boundary there", output)
+        self.assertNotIn("no curve of the shape", output)
         self.compare(path, fine_path)
         self.compare_on_ranks(path, fine_path, (2, 7))
         attributes = arrays(fine_path)[1]
         middles = {kind: attributes[f"middles_{kind}"] for kind in ("on_curve", "near_curve", "straight", "refused")}
         self.assertEqual(2 * sum(middles.values()), len(arrays(fine_path)[0][FACETS]))
-        self.assertLess(middles["straight"], 0.4 * sum(middles.values()))
+        self.assertEqual(middles["near_curve"] + middles["straight"], 0)
+        self.assertLess(middles["refused"], 0.02 * sum(middles.values()))
         self.refine(fine_path, "finest.h5")
 
     def test_coarse_arcs(self):

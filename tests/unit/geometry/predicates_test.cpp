@@ -207,5 +207,16 @@ TEST(Predicates, ACocircularQuadrilateralHasExactlyOneDiagonalWhereverItLies) {
   }
 }
 
+TEST(InsideCircle, LeavesOutCocircularPointsAndTakesTheNextOnes) {
+  const Lattice lattice(unit_square);
+  const double r = 1024 * lattice.step();
+  const Vec2 at = lattice.snap(Vec2{0.3, 0.7}), inward{lattice.step(), 0};
+  const Vec2 a = at + r * Vec2{0, -5}, b = at + r * Vec2{4, 3}, c = at + r * Vec2{-5, 0};
+  for (const Vec2 d : {at + r * Vec2{0, 5}, at + r * Vec2{3, 4}, at + r * Vec2{5, 0}})
+    EXPECT_FALSE(is_inside_circle(a, b, c, d, lattice));
+  EXPECT_TRUE(is_inside_circle(a, b, c, at + r * Vec2{5, 0} - inward, lattice));
+  EXPECT_FALSE(is_inside_circle(a, b, c, at + r * Vec2{5, 0} + inward, lattice));
+}
+
 } // namespace
 } // namespace trime::geometry

@@ -68,7 +68,7 @@ TEST(Children, OfARightTriangleStaySimilar) { // its two triangulations are equa
 
 TEST(Children, AreNotSoundIfAPointLiesTooFarOut) {
   const Vec2 a{0.25, 0.25}, b{0.75, 0.25}, c{0.5, 0.625};
-  const Children beyond({a, b, c}, {Vec2{0.5, 0.5}, 0.5 * (b + c), 0.5 * (c + a)}, lattice);
+  const Children beyond({a, b, c}, {Vec2{0.5, 0.6875}, 0.5 * (b + c), 0.5 * (c + a)}, lattice);
   EXPECT_FALSE(beyond.is_sound(lattice));
 }
 
