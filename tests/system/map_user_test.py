@@ -143,6 +143,14 @@ class MapUser(unittest.TestCase):
         self.refused(r"\[longitude 0, latitude .*\] lies outside", bay(), "meshing.components=at 0 0")
         self.refused("without 'coordinates' the files have", bay(), "shape.projection=", "output.coordinates=degrees",
                      "output.formats=fort14", "sizing.size_at=coast 0.01", "sizing.max_size=0.02")
+        self.refused("only geometries of type Point", [feature("Point", [8, 54], {"kind": "coast"})])
+        self.refused(r"unknown name 'distance'; in the formula of a size, dist\(\)", bay(), "sizing.size_at=",
+                     "sizing.type=expression", "sizing.expression=min(2000, 200+0.15*distance)")
+        done = self.good(bay(), "sizing.size_at=", max_size=1e6)
+        self.assertRegex(done.stderr + done.stdout, r"max_size = 1e\+06 is longer than the whole shape \(5.*unit of")
+        done = run("info", "map.ini", cwd=self.work)
+        self.assertEqual(done.returncode, 4)
+        self.assertRegex(done.stderr, r"map\.ini: expected a mesh file NAME\.h5")
         islands = [square(178 + k, -17, 0.5, "east") for k in (0, 1)] + [square(-180, -17, 0.5, "west"),
                                                                          square(179.5, -17, 0.5, "middle")]
         done = self.mesh(islands, "shape.projection=", size_at="coast 0.1", max_size=0.2)
