@@ -192,7 +192,8 @@ Placement set_up_threads(const Job& job) {
   return placement;
 }
 
-/// Edges that are longer than the shape are probably in another unit than the coordinates. Another warning speaks of degrees.
+/// Edges that are longer than the shape are probably in another unit than the coordinates. Another warning speaks of
+/// degrees.
 void warn_of_length(const RunOptions& options, const ShapeInput& input, Log& log) {
   const geometry::Box box = input.boundary().bounding_box();
   const double extent = std::fmax(box.width(), box.height());

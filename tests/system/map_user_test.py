@@ -115,6 +115,17 @@ class MapUser(unittest.TestCase):
         for check in ("on_curve", "outside", "uncovered_curves", "uncovered_places", "container"):
             self.assertRegex(done.stdout, rf"(?m)^ok +{check} ")
 
+    def check_finds(self, names, features):
+        """trime_check finds these checks wrong if the map is another one than that of the mesh."""
+        if not os.path.exists(CHECK):
+            return
+        (self.work / "map.geojson").write_text(collection(features))
+        done = subprocess.run([CHECK, "out/map.h5"], cwd=self.work, capture_output=True, text=True, timeout=120,
+                              check=False)
+        self.assertEqual(done.returncode, 5, done.stdout)
+        for check in names:
+            self.assertRegex(done.stdout, rf"(?m)^WRONG +{check} ")
+
     def test_200_m_at_the_coast(self):
         done = self.good(bay())
         with h5py.File(self.work / "out" / "map.h5") as file:
@@ -206,6 +217,8 @@ class MapUser(unittest.TestCase):
         done = self.good(states, "shape.water.overlap=union", size_at="coast 5000", max_size=20000)
         self.assertNotIn("disappears", done.stderr + done.stdout)
         self.confirmed()
+        self.check_finds(["uncovered_places", "uncovered_curves"], states + [square(-0.4, 51.1, 1, "e")])
+        self.check_finds(["outside", "on_curve"], states[:2] + states[3:])
         bow = [feature("Polygon", [[[0, 50], [1, 50], [0, 51], [1.3, 51.2], [0, 50]]], {"kind": "bow"}),
                feature("Polygon", [[[3, 50], [4, 50], [3, 51], [4.3, 51.2], [3, 50]]], {"kind": "bow"})]
         self.refused("found 2 faults", bow + states, "shape.water.overlap=union", "shape.water.attribute=",
