@@ -63,8 +63,9 @@ std::vector<contours::Contour> read_contours(const RunOptions& options, const co
       return;
     for (std::size_t k = 0; k < contours.size(); ++k)
       if (const PartOptions& part = options.parts[k]; part.type == "contour")
-        contours[k] =
-            contours::read_contour(part.file, hint_of(part.file_is_relative), part.attribute, faults_of(part));
+        contours[k] = contours::read_contour(
+            part.file, fmt::format("; 'file' in [shape.{}]{}", part.name, hint_of(part.file_is_relative)),
+            part.attribute, faults_of(part));
     for (std::size_t k = 0; k < contours.size(); ++k)
       if (options.parts[k].dissolve && !contours[k].is_map)
         throw ConfigError(fmt::format("{}: 'overlap = union' in [shape.{}] unites the polygons of a map; expected a "
