@@ -91,25 +91,6 @@ geometry::Box box_of(std::span<const Contour> contours) {
   return box;
 }
 
-/// A key with a length, and the length; 0 if the config has none.
-struct GivenLength {
-  const char* key = "edge_length";
-  double length = 0;
-};
-
-/// Returns the smallest length that the config gives for the edges of some place; min_size only if no other one is
-/// given.
-GivenLength length_of(const RunOptions& options) {
-  const meshing::MeshOptions& mesh = options.mesh;
-  GivenLength least{"edge_length", mesh.edge_length.value_or(0)};
-  if (mesh.absolute_sizes && options.sizing.type == "uniform")
-    least = {"max_size", mesh.max_size.value_or(0)};
-  for (const sizing::NamedSize& named : options.sizing.size_at)
-    if (!(least.length > 0) || named.size < least.length)
-      least = {"size_at", named.size};
-  return mesh.min_size.value_or(0) > least.length ? GivenLength{"min_size", *mesh.min_size} : least;
-}
-
 /// Does the map reach both sides of the date line, as one that is cut there?
 bool is_cut_at_date_line(const geometry::Box& box) {
   constexpr double date_line = 180, on_meridian = 1e-9;
@@ -117,7 +98,8 @@ bool is_cut_at_date_line(const geometry::Box& box) {
 }
 
 /// Degrees where metres were meant would lose nearly all of the shape: edges of metres are longer than all of it.
-void tell_of_degrees(const RunOptions& options, const Contour& map, const geometry::Box& box, Log& log) {
+/// Returns whether there is a warning.
+bool tell_of_degrees(const RunOptions& options, const Contour& map, const geometry::Box& box, Log& log) {
   constexpr double far = 4; // extents between the origin and the box: drawings begin near the origin
   const double extent = std::fmax(box.width(), box.height());
   const double away =
@@ -136,10 +118,13 @@ void tell_of_degrees(const RunOptions& options, const Contour& map, const geomet
     log.warning("the coordinates of {} are most likely longitude and latitude in degrees: the map is {:.3g} long and "
                 "{:.3g} away from (0, 0); set 'projection = auto' in [shape] to mesh them in metres",
                 map.source, extent, away);
-  else
+  else {
     log.summary("{} does not say in which reference system its coordinates are: if they are longitude and latitude, "
                 "'projection = auto' in [shape] meshes them in metres",
                 map.source);
+    return false;
+  }
+  return true;
 }
 
 /// Where a projection stretches lengths most, among vertices far from each other in the file.
@@ -213,25 +198,38 @@ void prepare_degrees(const RunOptions& options, std::span<Contour> contours, Log
 
 /// Without a projection.
 MapSystem as_it_is(const RunOptions& options, std::span<const Contour> contours, Log& log) {
+  MapSystem found;
   const std::string crs = common_system(contours);
   const bool moved =
       std::any_of(options.parts.begin(), options.parts.end(), [](const PartOptions& part) { return part.normalize; });
   if (const Contour* map = map_without_system(contours); map != nullptr && !moved)
-    tell_of_degrees(options, *map, box_of(contours), log);
+    found.may_be_degrees = tell_of_degrees(options, *map, box_of(contours), log);
   if (crs.empty() || moved)
-    return {};
+    return found;
   try {
-    if (projection::is_geographic(crs))
+    found.may_be_degrees = projection::is_geographic(crs);
+    if (found.may_be_degrees)
       log.warning("the contours are in longitude and latitude, and degrees are meshed as if they were lengths; "
                   "'projection = auto' in [shape] meshes them in metres");
-    return {crs, projection::well_known_text(crs), crs};
+    return {crs, projection::well_known_text(crs), crs, found.may_be_degrees};
   } catch (const ConfigError& error) { // nobody has asked for it
     log.warning("the mesh file does not name the reference system of the contours: {}", error.what());
-    return {};
+    return found;
   }
 }
 
 } // namespace
+
+GivenLength length_of(const RunOptions& options) {
+  const meshing::MeshOptions& mesh = options.mesh;
+  GivenLength least{"edge_length", mesh.edge_length.value_or(0)};
+  if (mesh.absolute_sizes && options.sizing.type == "uniform")
+    least = {"max_size", mesh.max_size.value_or(0)};
+  for (const sizing::NamedSize& named : options.sizing.size_at)
+    if (!(least.length > 0) || named.size < least.length)
+      least = {"size_at", named.size};
+  return mesh.min_size.value_or(0) > least.length ? GivenLength{"min_size", *mesh.min_size} : least;
+}
 
 void project_contour(Contour& contour, const std::string& plane) {
   const std::string system = system_of(contour);

@@ -12,11 +12,22 @@
 
 namespace trime::app {
 
+/// A key of the config with a length, and the length; 0 if the config has none.
+struct GivenLength {
+  const char* key = "edge_length";
+  double length = 0;
+};
+
+/// Returns the smallest length that the config gives for the edges of some place; min_size only if no other one is
+/// given.
+GivenLength length_of(const RunOptions& options);
+
 /// How coordinates of the container correspond to places on the Earth. All members are empty if that is unknown.
 struct MapSystem {               ///< name of the reference system, as PROJ knows it
   std::string crs{};             ///< reference system, as PROJ names it
   std::string well_known_text{}; ///< complete definition of the reference system
   std::string crs_of_files{};    ///< name of the reference system of the contour files
+  bool may_be_degrees = false;   ///< a warning says that coordinates seem to be degrees, and lengths metres
 };
 
 /// @brief Projects the contours if the config has the key `projection` in [shape]. Otherwise only finds out which

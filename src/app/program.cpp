@@ -194,6 +194,17 @@ Placement set_up_threads(const Job& job) {
   return placement;
 }
 
+/// Edges that are longer than the shape are probably in another unit than the coordinates. Another warning speaks of
+/// degrees.
+void warn_of_length(const RunOptions& options, const ShapeInput& input, Log& log) {
+  const geometry::Box box = input.boundary().bounding_box();
+  const double extent = std::fmax(box.width(), box.height());
+  const GivenLength given = length_of(options);
+  if (given.length > extent && extent > 0 && !input.map.may_be_degrees)
+    log.warning("{} = {:g} is longer than the whole shape ({:.3g}); is it in the unit of the coordinates?", given.key,
+                given.length, extent);
+}
+
 /// The shape with its fixed points. Messages name the user's places from here on.
 ShapeInput read_input(const Job& job) {
   const RunOptions& options = job.options;
@@ -211,6 +222,7 @@ ShapeInput read_input(const Job& job) {
         "sets no sides",
         box.min.x, box.max.x, box.min.y, box.max.y);
   job.log.set_rewriter([&places = job.places](const PlacedText& message) { return places.explain(message); });
+  warn_of_length(options, input, job.log);
   input.set_fixed_points(read_fixed_points(options, input, job.comm));
   boundary::check_choice_of_component(input.boundary(), placed_options(options, input, job.comm).features);
   return input;

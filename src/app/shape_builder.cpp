@@ -66,8 +66,9 @@ std::vector<contours::Contour> read_contours(const RunOptions& options, const co
       return;
     for (std::size_t k = 0; k < options.parts.size(); ++k)
       if (const PartOptions& part = options.parts[k]; part.type == "contour")
-        contours[k] =
-            contours::read_contour(part.file, hint_of(part.file_is_relative), part.attribute, faults_of(part));
+        contours[k] = contours::read_contour(
+            part.file, fmt::format("; 'file' in [shape.{}]{}", part.name, hint_of(part.file_is_relative)),
+            part.attribute, faults_of(part));
     for (std::size_t k = 0; k < options.parts.size(); ++k)
       if (options.parts[k].dissolve && !contours[k].is_map)
         throw ConfigError(fmt::format("{}: 'overlap = union' in [shape.{}] unites the polygons of a map; expected a "
@@ -80,8 +81,9 @@ std::vector<contours::Contour> read_contours(const RunOptions& options, const co
       }
     for (std::size_t k = 0; k < options.curves.size(); ++k) {
       const CurveOptions& curve = options.curves[k];
-      contours[options.parts.size() + k] =
-          contours::read_curves(curve.file, hint_of(curve.file_is_relative), curve.attribute);
+      contours[options.parts.size() + k] = contours::read_curves(
+          curve.file, fmt::format("; 'file' in [curve.{}]{}", curve.name, hint_of(curve.file_is_relative)),
+          curve.attribute);
     }
     map = project_contours(options, contours, log);
   });
@@ -204,7 +206,7 @@ void tell_of(const geometry::InnerCurves& curves, Log& log) {
           "of the boundary",
           curves.names[k], curves.on_boundary[k]);
     if (is_inside[k] == 0)
-      log.warning("curve '{}' has no edges of its own: no part of it lies inside the shape and away from other curves",
+      log.warning("curve '{}' has no edges: no part of it lies inside the shape and away from other curves",
                   curves.names[k]);
   }
 }

@@ -37,9 +37,9 @@ public:
 
   /// @brief Returns the message with the file and line of the nearest contour vertex after each place: `[FILE:LINE]`.
   /// If set_on_earth was called and knows the place, the text is `[FILE:LINE: longitude x, latitude y]`, without FILE
-  /// and LINE far from all contours. Otherwise, if the contour is normalised, the text is `[FILE:LINE: (x, y)]` with the
-  /// place in coordinates of the file; if it is projected, x and y are those of the nearest vertex in the file. Nothing
-  /// is added to other places that are far from all contours. Cost: O(vertices) for each place.
+  /// and LINE far from all contours. Otherwise, if the contour is normalised, the text is `[FILE:LINE: (x, y)]` with
+  /// the place in coordinates of the file; if it is projected, x and y are those of the nearest vertex in the file.
+  /// Nothing is added to other places that are far from all contours. Cost: O(vertices) for each place.
   std::string explain(const PlacedText& message) const;
 
   /// @brief Returns for each loop of the boundary the line of its file on which its ring begins, which is the line of

@@ -32,7 +32,7 @@ struct Share {
   std::int64_t last(std::int64_t all) const { return all / ranks * (rank + 1) + all % ranks * (rank + 1) / ranks; }
 };
 
-/// What a layout takes besides curves and sizes.
+/// The input of a layout in addition to curves and sizes.
 struct LayoutRequest {
   double corner_angle;                      ///< [degrees] a junction that turns by more is a corner
   std::span<const geometry::Vec2> inside{}; ///< points that must not lie in the circles of chords

@@ -35,7 +35,7 @@ struct Junctions {
   std::vector<double> others;   // t of those that may be left out: features below the resolution
 };
 
-/// The two sides of an open curve, which is a loop there and back, are no wedge.
+/// An open curve is a loop there and back. Its two sides do not form a wedge at its ends.
 LoopCorner corner_at(const LoopMetric& metric, std::size_t piece) {
   const geometry::Loop& loop = metric.loop();
   const bool is_end = loop.turning > 0 && (piece == 0 || piece == loop.turning);

@@ -20,7 +20,7 @@ struct ProjectedRings {
 
 /// How the rings of a map in degrees lie at the meridian of 180 degrees.
 enum class DateLine {
-  free,     ///< no edge runs along it, or the coordinates are no degrees
+  free,     ///< no edge runs along it, or the coordinates are not in degrees
   unrolled, ///< edges run along it; rings west of a free meridian lie 360 degrees farther east now
   closed,   ///< edges run along it, and there is no free meridian
 };

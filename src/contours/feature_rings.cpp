@@ -128,6 +128,11 @@ void FeatureRings::finish(const char* expected, Faults faults) {
   builder_.finish();
   resolve_markers();
   tell_skipped();
+  if (contour_.rings.empty() && contour_.faults.empty() && skipped_ > 0)
+    throw GeometryError(
+        fmt::format("{}: expected {}, found only geometries of type {} or the like; export the polygons "
+                    "or the lines of the map",
+                    contour_.source, expected, skipped_type_));
   check_reading(contour_, faults, expected);
 }
 

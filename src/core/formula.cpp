@@ -185,6 +185,10 @@ std::string complaint(const mu::Parser& parser, const mu::ParserError& error) {
       return "the operator '^' is not allowed here";
     if (!token.empty() && std::isalpha(static_cast<unsigned char>(token.front())) == 0)
       return fmt::format("'{}' cannot stand here", token);
+    if (token.starts_with("dist"))
+      return fmt::format("unknown name '{}'; in the formula of a size, dist() is the distance to the boundary, and "
+                         "dist(NAME) that to a part of it",
+                         token);
     const std::vector<std::string> names = known_names(parser);
     const std::string near = token.size() > 1 ? suggestion(token, names) : ""; // every letter is near to x
     return fmt::format("unknown name '{}'{}", token,

@@ -37,6 +37,10 @@ Hdf5File open_file(const std::string& path) {
   check_is_a_file(path);
   check_is_no_view(path);
   silence_hdf5();
+  if (H5Fis_hdf5(path.c_str()) == 0)
+    throw FileError(fmt::format("cannot read {}: expected a mesh file NAME.h5 that trime_mpi has written, found a file "
+                                "that is not HDF5",
+                                path));
   const Hdf5Properties access(H5Pcreate(H5P_FILE_ACCESS), "make properties of HDF5");
   checked(H5Pset_file_locking(access, true, true), "set the locks of HDF5");
   return Hdf5File(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), "open " + path);

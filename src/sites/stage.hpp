@@ -30,11 +30,11 @@ struct StageView {
 
 /// @brief All data from which the sweeps of a stage start. Only `state` differs between ranks.
 ///
-/// The target edge length h is computed in steps. `scaled_size` is the user's relative size times the factor that yields
-/// the requested number of points, kept between the smallest and the largest size. asked_size() is `scaled_size`,
-/// lowered where it grows too fast. Then it is raised where edges would be too short. `lowered_size` is asked_size(),
-/// lowered around places where the boundary needs smaller triangles. `size` is `lowered_size` times `coarsening`; this
-/// stage uses it.
+/// The target edge length h is computed in steps. `scaled_size` is the user's relative size times the factor that
+/// yields the requested number of points, kept between the smallest and the largest size. asked_size() is
+/// `scaled_size`, lowered where it grows too fast. Then it is raised where edges would be too short. `lowered_size` is
+/// asked_size(), lowered around places where the boundary needs smaller triangles. `size` is `lowered_size` times
+/// `coarsening`; this stage uses it.
 struct Stage {
   double coarsening = 1;   ///< h of this stage divided by h of the last stage
   double typical_size = 1; ///< edge length of equilateral triangles that would fill the shape with as many points

@@ -286,7 +286,8 @@ class Rows:
             yield Row(text, code, expect, files={"ring.xy": ring})
 
     def missing_contour_file(self):
-        yield Row(GOOD.replace(RECTANGLE, CONTOUR), FILE, [r"ring\.xy.*relative to the config file"])
+        yield Row(GOOD.replace(RECTANGLE, CONTOUR), FILE,
+                  [r"ring\.xy.*'file' in \[shape\.[a-z]+\] \(relative to the config file"])
 
     def output_directory_cannot_be_written(self):
         yield Row(GOOD, FILE, [r"/dev/null/result"], extra=["output.directory=/dev/null/result"])

@@ -115,6 +115,17 @@ class MapUser(unittest.TestCase):
         for check in ("on_curve", "outside", "uncovered_curves", "uncovered_places", "container"):
             self.assertRegex(done.stdout, rf"(?m)^ok +{check} ")
 
+    def check_finds(self, names, features):
+        """trime_check finds these checks wrong if the map is another one than that of the mesh."""
+        if not os.path.exists(CHECK):
+            return
+        (self.work / "map.geojson").write_text(collection(features))
+        done = subprocess.run([CHECK, "out/map.h5"], cwd=self.work, capture_output=True, text=True, timeout=120,
+                              check=False)
+        self.assertEqual(done.returncode, 5, done.stdout)
+        for check in names:
+            self.assertRegex(done.stdout, rf"(?m)^WRONG +{check} ")
+
     def test_200_m_at_the_coast(self):
         done = self.good(bay())
         with h5py.File(self.work / "out" / "map.h5") as file:
@@ -143,6 +154,14 @@ class MapUser(unittest.TestCase):
         self.refused(r"\[longitude 0, latitude .*\] lies outside", bay(), "meshing.components=at 0 0")
         self.refused("without 'coordinates' the files have", bay(), "shape.projection=", "output.coordinates=degrees",
                      "output.formats=fort14", "sizing.size_at=coast 0.01", "sizing.max_size=0.02")
+        self.refused("only geometries of type Point", [feature("Point", [8, 54], {"kind": "coast"})])
+        self.refused(r"unknown name 'distance'; in the formula of a size, dist\(\)", bay(), "sizing.size_at=",
+                     "sizing.type=expression", "sizing.expression=min(2000, 200+0.15*distance)")
+        done = self.good(bay(), "sizing.size_at=", max_size=1e6)
+        self.assertRegex(done.stderr + done.stdout, r"max_size = 1e\+06 is longer than the whole shape \(5.*unit of")
+        done = run("info", "map.ini", cwd=self.work)
+        self.assertEqual(done.returncode, 4)
+        self.assertRegex(done.stderr, r"map\.ini: expected a mesh file NAME\.h5")
         islands = [square(178 + k, -17, 0.5, "east") for k in (0, 1)] + [square(-180, -17, 0.5, "west"),
                                                                          square(179.5, -17, 0.5, "middle")]
         done = self.mesh(islands, "shape.projection=", size_at="coast 0.1", max_size=0.2)
@@ -198,6 +217,8 @@ class MapUser(unittest.TestCase):
         done = self.good(states, "shape.water.overlap=union", size_at="coast 5000", max_size=20000)
         self.assertNotIn("disappears", done.stderr + done.stdout)
         self.confirmed()
+        self.check_finds(["uncovered_places", "uncovered_curves"], states + [square(-0.4, 51.1, 1, "e")])
+        self.check_finds(["outside", "on_curve"], states[:2] + states[3:])
         bow = [feature("Polygon", [[[0, 50], [1, 50], [0, 51], [1.3, 51.2], [0, 50]]], {"kind": "bow"}),
                feature("Polygon", [[[3, 50], [4, 50], [3, 51], [4.3, 51.2], [3, 50]]], {"kind": "bow"})]
         self.refused("found 2 faults", bow + states, "shape.water.overlap=union", "shape.water.attribute=",

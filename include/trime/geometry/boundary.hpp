@@ -95,7 +95,7 @@ struct InnerArc {
 /// bit for bit.
 struct InnerCurves {
   std::vector<InnerArc> arcs;     ///< in the order of the names, then of the files
-  std::vector<std::string> names; ///< of the curves
+  std::vector<std::string> names; ///< names of the curves
   /// Lengths of each curve: on the boundary of the shape, where its edges belong to the boundary; and outside of the
   /// shape, where it is left out.
   std::vector<double> on_boundary{}, outside{};

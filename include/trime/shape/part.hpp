@@ -36,7 +36,7 @@ struct Polygon {
   std::vector<int> markers{};              ///< marker of each segment; 0 for no marker; empty if all are 0
   std::vector<std::string> marker_names{}; ///< names of the markers, as in Contour::marker_names
   std::vector<std::string> notes{};        ///< sentences for the log about what was dissolved
-  std::vector<std::string> labels{};       ///< of curves: file and line of each segment, for messages
+  std::vector<std::string> labels{};       ///< file and line of each segment of a curve, for messages
 };
 
 /// A line of a curve: its vertices, and whether it is a ring, which returns from the last vertex to the first one.

@@ -155,7 +155,7 @@ TEST(GeoJson, MistakesAreLocated) {
   expect(geometry_of("Polygon", "[[[0, 0],\n\n[1e31, 0], [0, 1]]]"), "a.geojson:4: ", "1e+31");
   expect(geometry_of("LineString", "[[0, 0], [1, 0],\n[0, 1]]"),
          "a.geojson:2: ", "whose end at (0, 0) no other line shares; close the ring, or make it a polygon");
-  expect(geometry_of("Point", "[0, 0]"), "a.geojson: ", "found no vertex at all");
+  expect(geometry_of("Point", "[0, 0]"), "a.geojson: ", "found only geometries of type Point or");
   expect("[1, 2]", "a.geojson: ", "found no vertex at all");
   expect("{\"type\": \"Topology\", \"arcs\": [[[0, 0], [1, 1]]]}", "a.geojson: ", "Polygon or MultiPolygon");
 }
@@ -287,7 +287,7 @@ TEST(GeoJson, LinesThatAreCutAtTheDateLineAreJoined) {
   EXPECT_TRUE(joined.joins_date_line);
   EXPECT_EQ(joined.rings[0].points, (std::vector<Vec2>{{180, 1}, {179, 1}, {179, 0}, {180, 0}, {-179, 0}, {-179, 1}}));
   for (const char* west : {"[[-180, 0], [-179, 0], [-179, 1], [-180, 1.1]]", // ends elsewhere
-                           "[[-180, 0], [0, 0], [0, 1], [-180, 1]]"}) {      // too long to tell on which side it lies
+                           "[[-180, 0], [0, 0], [0, 1], [-180, 1]]"}) {      // long: on which side does it lie?
     const std::string message = message_of<GeometryError>([&] { cut_at_date_line(east, west); });
     EXPECT_NE(message.find("no other line shares"), std::string::npos) << message;
   }
