@@ -60,7 +60,7 @@ bool Fit::raise_at_short_edges(const sites::Stage& laid) {
   const auto time = context_.timers.scope("boundary");
   const std::vector<geometry::ShortEdge> edges = boundary::short_edges(context_.comm, laid.polygon, shortest);
   std::vector<sizing::LeastSize> places;
-  comm::run_agreed(context_.comm, [&] { places = raised_around(edges, laid, context_.options); });
+  comm::run_agreed(context_.comm, [&] { places = raised_around(edges, laid, context_.options, raisings_); });
   if (places.empty())
     return false;
   context_.log.info("shortest_edge: {} pairs of sites on the boundary are nearer to each other than {:g}; the shape is "
