@@ -12,12 +12,12 @@ std::vector<sizing::LeastSize> raised_around(std::span<const geometry::ShortEdge
   std::vector<sizing::LeastSize> places;
   if (options.features.keep_all)
     return places;
-  const double step = round < RaisingRules::small_steps ? RaisingRules::step : RaisingRules::last_step;
+  const double step = round < RaisingRules::small_steps ? RaisingRules::first_step : RaisingRules::last_step;
   for (const geometry::ShortEdge& edge : edges) {
     const double h = sizing::checked_size(stage.asked_size(), edge.middle);
     const double most = std::fmin(RaisingRules::most_raised * stage.growing_size().size(edge.middle),
                                   options.max_size.value_or(INFINITY));
-    if (const double raised = std::fmin(step * h, most); raised > RaisingRules::least_step * h)
+    if (const double raised = std::fmin(step * h, most); raised > RaisingRules::least_raise * h)
       places.push_back({edge.middle, raised});
   }
   return places;
