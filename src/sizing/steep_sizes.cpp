@@ -39,6 +39,8 @@ constexpr std::array<Vec2, 8> directions{{{1, 0},
 // [rad] Largest turn between two points that replace an arc in the test of what lies inside.
 constexpr double arc_step = pi / 64;
 
+constexpr std::ptrdiff_t places_in_a_row = 8; // by one thread; a front often grows by fewer in a round
+
 constexpr std::ptrdiff_t pieces_in_a_row = 64; // by one thread, along which places have about equal distances
 
 /// The chords of the boundary, with arcs replaced by polygons.
@@ -276,7 +278,7 @@ void SteepSizes::Front::flood() {
       renew_tree();
     const std::size_t first = std::exchange(followed_, found_.size());
     const std::vector<SizeLimit> candidates =
-        gather_in_order<SizeLimit>(std::ssize(found_) - static_cast<std::ptrdiff_t>(first), 1,
+        gather_in_order<SizeLimit>(std::ssize(found_) - static_cast<std::ptrdiff_t>(first), places_in_a_row,
                                    [&](std::ptrdiff_t k, std::vector<SizeLimit>& list) {
                                      look_around(found_[first + static_cast<std::size_t>(k)], list);
                                    });
