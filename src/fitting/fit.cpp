@@ -55,12 +55,12 @@ std::variant<SizeTrial, TooFewPoints> Fit::long_enough(double points, double coa
 
 bool Fit::raise_at_short_edges(const sites::Stage& laid) {
   const double shortest = context_.options.shortest_edge;
-  if (!(shortest > 0) || laid.polygon.overfull || raisings_ == RaisingRules::most_rounds)
+  if (!(shortest > 0) || laid.polygon.overfull || raisings_ == RaisingRules::most_raisings)
     return false;
   const auto time = context_.timers.scope("boundary");
   const std::vector<geometry::ShortEdge> edges = boundary::short_edges(context_.comm, laid.polygon, shortest);
   std::vector<sizing::LeastSize> places;
-  comm::run_agreed(context_.comm, [&] { places = raised_around(edges, laid, context_.options); });
+  comm::run_agreed(context_.comm, [&] { places = raised_around(edges, laid, context_.options, raisings_); });
   if (places.empty())
     return false;
   context_.log.info("shortest_edge: {} pairs of sites on the boundary are nearer to each other than {:g}; the shape is "

@@ -36,9 +36,10 @@ constexpr double most_steepness = 1.05;
 // [1] They serve a factor that is smaller by this, at most: the places then lie farther apart than they should.
 constexpr double least_steepness = 0.7;
 
-// [1] Places at which a steep size is limited, for each point asked for: the mesh would have more points than that,
-// since the places are about a third of a size apart and the size grows slowly from there.
-constexpr double steep_places_per_point = 2;
+// [1] Places at which a steep size is limited, for each point asked for, over the gradation, and at least one for each
+// point: with more of them the mesh would have too many points. The places are about a third of a size apart, so a side
+// of a boundary with edges as long as h has 0.4 / gradation points for each of them.
+constexpr double steep_places_per_point = 6;
 
 // [places] So few of them never mean that there are too many points.
 constexpr double few_steep_places = 4096;
@@ -109,12 +110,13 @@ void find_steep_places(const LayoutContext& context, const Stage& stage, FittedS
     if (!steep.sizes)
       steep.sizes = std::make_shared<sizing::SteepSizes>(context.comm, context.relative_size, context.given_boundary,
                                                          context.lattice, std::fmax(steep_samples, 0.5 * points));
-    const double most_places =
-        context.options.points
-            ? std::fmax(few_steep_places, steep_places_per_point * static_cast<double>(*context.options.points))
-            : most_steep_places;
+    const double most_places = context.options.points
+                                   ? std::fmax(few_steep_places, std::fmax(1, steep_places_per_point * *gradation) *
+                                                                     static_cast<double>(*context.options.points))
+                                   : most_steep_places;
     sizing::SteepSizes::Limits found = steep.sizes->limits(asked, *gradation, most_places);
     steep.is_full = found.is_full;
+    steep.is_capped = found.is_capped;
     steep.limits = std::move(found.limits);
     steep.gradation = found.gradation;
     steep.steepest = found.steepest;

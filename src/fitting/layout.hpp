@@ -21,7 +21,8 @@ struct SteepPlaces {
   double gradation = 1; ///< growth from the places
   std::vector<sizing::SizeLimit> limits{};
   sizing::SteepSizes::Steepest steepest{{}, 0};
-  bool is_full = false; ///< true if the mesh would have too many points at these places, and others are missing
+  bool is_capped = false; ///< true if places are missing, because there are too many
+  bool is_full = false;   ///< true if the mesh would have too many points at these places, and others are missing
   std::shared_ptr<sizing::SteepSizes> sizes{}; ///< samples of the relative size; made when needed
 };
 

@@ -14,8 +14,9 @@ namespace trime::fitting {
 
 /// @brief Returns a larger size for the place of each edge, unless the size there was raised by as much as is allowed.
 /// Local.
+/// @param round how often the size was raised before: later steps are larger
 /// @throws GeometryError if the size at a place is not positive and finite
 std::vector<sizing::LeastSize> raised_around(std::span<const geometry::ShortEdge> edges, const sites::Stage& stage,
-                                             const FitOptions& options);
+                                             const FitOptions& options, int round);
 
 } // namespace trime::fitting

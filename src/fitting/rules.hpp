@@ -66,14 +66,18 @@ struct LayoutRules {
 
 /// The numbers for raising the size around edges that are shorter than the user allows.
 struct RaisingRules {
-  /// [1] Factor on the size at the place of a short edge.
-  static constexpr double step = 1.3;
+  /// [1] Factor on the size at the place of a short edge. Not measured.
+  static constexpr double first_step = 1.3;
+  /// [1] This factor in later rounds, for the few places where small steps have not helped. Not measured.
+  static constexpr double last_step = 1.6;
+  /// [rounds] Number of rounds with small steps. Not measured.
+  static constexpr int small_steps = 4;
   /// [1] A smaller factor is not worth another round. Not measured.
-  static constexpr double least_step = 1.02;
-  /// [1] Largest factor on the size that the user asks for.
+  static constexpr double least_raise = 1.02;
+  /// [1] Largest factor on the size that the user asks for. Not measured.
   static constexpr double most_raised = 4;
-  /// [rounds] How often the size is raised before the mesh is made.
-  static constexpr int most_rounds = 12;
+  /// [rounds] How often the size is raised before the mesh is made. Not measured.
+  static constexpr int most_raisings = 16;
 };
 
 /// The numbers of the search for the size that yields the points asked for.

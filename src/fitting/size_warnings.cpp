@@ -2,7 +2,6 @@
 #include "fitting/size_warnings.hpp"
 
 #include "fitting/rules.hpp"
-#include "sizing/rules.hpp"
 #include "trime/core/error.hpp"
 
 #include <cmath>
@@ -58,9 +57,7 @@ void warn_of_lowered_growth(const SteepPlaces& steep, double gradation, Log& log
               "'none' uses it as it is",
               steep.steepest.slope, Place(steep.steepest.place, 4), gradation, steep.limits.size(),
               steep.limits.size() == 1 ? "" : "s",
-              steep.limits.size() >= sizing::SizingRules::most_steep_places
-                  ? ", the largest number that is possible, and may be too steep at others"
-                  : "");
+              steep.is_capped ? ", the largest number that is possible, and may be too steep at others" : "");
 }
 
 void warn_of_raised_sizes(const Stage& stage, const std::vector<sizing::LeastSize>& raised, double shortest_edge,

@@ -61,8 +61,9 @@ public:
         checkpoints_(run, checkpoints, [this](StateFields& fields) { visit(fields); }),
         relaxation_(run, stars_, snapshots_, checkpoints_) {}
 
-  /// Makes the mesh, or nothing if edges are too short and larger sizes around them may help. Then raised() says where.
-  std::optional<MeshResult> make(bool may_raise) {
+  /// Makes the mesh, or nothing if edges are too short and larger sizes around them may help; then take_raised() says
+  /// where. @param trial number of this run, from 1 @param may_raise whether another run may follow
+  std::optional<MeshResult> make(int trial, bool may_raise) {
     if (saved_) {
       go_on_from(*saved_);
     } else {
@@ -80,14 +81,14 @@ public:
     const bool mended = clean_up();
     empty_discs(); // of chords that the clean-up has moved, where sizes are steep
     stars_.complete(stage_, mended ? LemmaReach::inside : LemmaReach::up_to_chords);
-    if (may_raise && raise_at_short_edges())
+    if (may_raise && raise_at_short_edges(trial))
       return std::nullopt;
     return extract();
   }
   std::vector<sizing::LeastSize> take_raised() { return std::move(raised_); }
 
 private:
-  bool raise_at_short_edges();
+  bool raise_at_short_edges(int trial);
   void start_first_stage();
   void start_next_stage();
   void go_on_from(const SavedRun& saved);
@@ -265,12 +266,12 @@ bool Run::clean_up() {
 }
 
 /// Lists where the size must be larger so that no edge is too short. Returns false if that is nowhere. Collective.
-bool Run::raise_at_short_edges() {
+bool Run::raise_at_short_edges(int trial) {
   const double shortest = run_.options.shortest_edge.value_or(0);
   const auto time = run_.timers.scope("measure");
   const std::vector<geometry::ShortEdge> edges = extraction::short_edges(stage_.view(run_.lattice), shortest);
   std::vector<sizing::LeastSize> more;
-  comm::run_agreed(run_.comm, [&] { more = fitting::raised_around(edges, stage_, run_.fit); });
+  comm::run_agreed(run_.comm, [&] { more = fitting::raised_around(edges, stage_, run_.fit, trial); });
   if (more.empty())
     return false;
   run_.log.info("shortest_edge: {} edges are shorter than {:g}; the mesh is made again with larger sizes around them",
@@ -429,14 +430,15 @@ void Mesher::go_on_from(const SavedRun& saved) {
 
 MeshResult Mesher::run() {
   const Implementation& its = *implementation_;
+  const SnapshotObserver nobody;
   std::optional<MeshResult> result;
   std::vector<sizing::LeastSize> raised;
   const int trials = its.run.options.shortest_edge ? MeshingRules::most_trials : 1;
   for (int trial = 1; !result; ++trial) { // snapshots and checkpoints are those of the first trial
     const bool first = trial == 1;
-    Run run(its.run, first ? its.observer : SnapshotObserver{}, first ? its.checkpoints : nullptr,
-            first ? its.saved : nullptr, std::move(raised));
-    result = run.make(trial < trials);
+    Run run(its.run, first ? its.observer : nobody, first ? its.checkpoints : nullptr, first ? its.saved : nullptr,
+            std::move(raised));
+    result = run.make(trial, trial < trials);
     raised = run.take_raised();
   }
   return std::move(*result);

@@ -26,7 +26,8 @@ struct MeshingRules {
   /// [FeatureOptions::tolerance] Largest distance between the curve and a boundary edge that the clean-up makes. The
   /// distance may be larger than elsewhere, because the clean-up changes only the worst triangles. Not measured.
   static constexpr double cleanup_tolerance = 3;
-  /// [meshes] How often a mesh is made, each time with larger sizes around edges that are too short.
+  /// [meshes] How often a mesh is made, each time with larger sizes around edges that are too short. Not
+  /// measured.
   static constexpr int most_trials = 8;
   /// [points asked for] If the mesh has a smaller share of the points that were asked for, the program warns.
   static constexpr double shortage_warning = 0.9;

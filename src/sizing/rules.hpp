@@ -47,8 +47,15 @@ struct SizingRules {
   static constexpr double least_steep_cells = 8;
   /// [cells] Largest number of cells with a sample along a side of the box around the shape. Not measured.
   static constexpr double most_steep_cells = 1 << 14;
-  /// [places] Largest number of places from which the growth of a size is limited. Not measured.
-  static constexpr std::size_t most_steep_places = std::size_t{1} << 17;
+  /// [places] Largest number of places from which the growth of a size is limited, except those along the boundary, in
+  /// meshes with few points. Not measured.
+  static constexpr double most_steep_places = 1 << 17;
+  /// [places] The same number in meshes with many points. Not measured.
+  static constexpr double most_places_searched = 1 << 19;
+  /// [seeds] Number of seeds from which the number of these places is estimated. Not measured.
+  static constexpr std::size_t estimated_seeds = 256;
+  /// [1] If the estimate exceeds the largest number by this factor, the places are not searched. Not measured.
+  static constexpr double surely_full = 4;
   /// [places] A tree over the places is not renewed for fewer new ones. Not measured.
   static constexpr std::size_t few_steep_places = 64;
   /// [1] A slope counts as steep if it exceeds the gradation by this relative error. Not measured.

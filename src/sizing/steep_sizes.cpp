@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <unordered_map>
 #include <utility>
 
@@ -37,6 +38,8 @@ constexpr std::array<Vec2, 8> directions{{{1, 0},
 
 // [rad] Largest turn between two points that replace an arc in the test of what lies inside.
 constexpr double arc_step = pi / 64;
+
+constexpr std::ptrdiff_t places_in_a_row = 8; // by one thread; a front often grows by fewer in a round
 
 constexpr std::ptrdiff_t pieces_in_a_row = 64; // by one thread, along which places have about equal distances
 
@@ -96,19 +99,24 @@ private:
 class SteepSizes::Front {
 public:
   Front(SteepSizes& owner, const ScaledSize& asked, double gradation, double most_places)
-      : owner_(owner), asked_(asked), gradation_(gradation), most_places_(most_places) {}
+      : owner_(owner), asked_(asked), gradation_(gradation), most_places_(most_places),
+        most_searched_(
+            static_cast<std::size_t>(std::clamp(most_places, Rules::most_steep_places, Rules::most_places_searched))) {}
 
   /// Adds places that are known to lie on the front, unless others cover them. @pre they come with ascending sizes
   void add_known(const std::vector<SizeLimit>& places);
 
+  /// Estimates from some seeds how many places the front has, except those that are known. Local.
+  double expected_places(const std::vector<Seed>& seeds, double cell) const;
   /// Follows the front from a seed, unless the places that were found cover it. @pre seeds come with ascending sizes
   void follow(const Seed& seed);
   std::vector<SizeLimit> take() { return std::move(found_); }
   /// Are there more places than the mesh may have?
   bool is_overfull() const { return static_cast<double>(found_.size()) >= most_places_; }
+  /// Has the search ended?
+  bool is_full() const { return is_overfull() || found_.size() - known_ >= most_searched_; }
 
 private:
-  bool is_full() const { return is_overfull() || found_.size() - known_ >= Rules::most_steep_places; }
   double size(Vec2 p) const {
     const double h = asked_.size(owner_.boundary_.periods.wrap(p));
     return is_valid_size(h) && owner_.inside(p) ? h : huge;
@@ -121,6 +129,7 @@ private:
   void descend(SizeLimit& at, double step, double last_step) const;
   void approach(SizeLimit& at, Vec2 high) const;
   bool settle(SizeLimit& at) const;
+  std::optional<SizeLimit> place_of(const Seed& seed) const;
   void look_around(const SizeLimit& from, std::vector<SizeLimit>& candidates) const;
   void add(SizeLimit at);
   void flood();
@@ -148,8 +157,9 @@ private:
   const ScaledSize& asked_;
   double gradation_, most_places_;
   std::vector<SizeLimit> found_;
-  std::size_t known_ = 0;    // number of places that add_known() has added
-  std::size_t followed_ = 0; // number of places from which the front was followed
+  std::size_t most_searched_; // largest number of places that are found by following the front
+  std::size_t known_ = 0;     // number of places that add_known() has added
+  std::size_t followed_ = 0;  // number of places from which the front was followed
   std::unordered_map<Key, std::vector<std::size_t>, Hash>
       nearby_;              // indices into found_, by the cell at the level of their size
   ConeTree tree_;           // of the first places
@@ -268,7 +278,7 @@ void SteepSizes::Front::flood() {
       renew_tree();
     const std::size_t first = std::exchange(followed_, found_.size());
     const std::vector<SizeLimit> candidates =
-        gather_in_order<SizeLimit>(std::ssize(found_) - static_cast<std::ptrdiff_t>(first), 1,
+        gather_in_order<SizeLimit>(std::ssize(found_) - static_cast<std::ptrdiff_t>(first), places_in_a_row,
                                    [&](std::ptrdiff_t k, std::vector<SizeLimit>& list) {
                                      look_around(found_[first + static_cast<std::size_t>(k)], list);
                                    });
@@ -291,16 +301,32 @@ void SteepSizes::Front::add_known(const std::vector<SizeLimit>& places) {
   renew_tree();
 }
 
-void SteepSizes::Front::follow(const Seed& seed) {
+/// The place on the front that belongs to a seed; nothing if the places that were found cover it.
+std::optional<SizeLimit> SteepSizes::Front::place_of(const Seed& seed) const {
   SizeLimit at{seed.low, seed.size};
-  if (is_full() || seed.size > allowed(at) * (1 - Rules::covered_error))
-    return;
+  if (seed.size > allowed(at) * (1 - Rules::covered_error))
+    return std::nullopt;
   descend(at, 0.5 * geometry::length(seed.high - seed.low), Rules::front_precision);
   if (at.place == seed.low)
     approach(at, seed.high);
-  if (!adds(at))
+  return adds(at) ? std::optional(at) : std::nullopt;
+}
+
+double SteepSizes::Front::expected_places(const std::vector<Seed>& seeds, double cell) const {
+  const std::size_t stride = seeds.size() / Rules::estimated_seeds + 1;
+  std::vector<double> places((seeds.size() + stride - 1) / stride);
+  thread_loop(std::ssize(places), 1, [&](std::ptrdiff_t k, int) {
+    if (const auto at = place_of(seeds[static_cast<std::size_t>(k) * stride]))
+      places[static_cast<std::size_t>(k)] = cell / (Rules::front_step * at->size);
+  });
+  return static_cast<double>(stride) * std::accumulate(places.begin(), places.end(), 0.0);
+}
+
+void SteepSizes::Front::follow(const Seed& seed) {
+  const std::optional<SizeLimit> at = is_full() ? std::nullopt : place_of(seed);
+  if (!at)
     return;
-  add(at);
+  add(*at);
   flood();
   renew_tree();
 }
@@ -423,12 +449,16 @@ SteepSizes::Limits SteepSizes::limits(const ScaledSize& asked, double gradation,
     std::stable_sort(found.begin(), found.end(), [](const Seed& a, const Seed& b) { return a.size < b.size; });
     Front front(*this, asked, result.gradation, most_places);
     front.add_known(known);
+    const double cell = std::sqrt(box_.width() * box_.height() / (static_cast<double>(columns_) * rows_));
+    result.is_full = front.is_overfull() || front.expected_places(found, cell) > Rules::surely_full * most_places;
     for (const Seed& seed : found) {
       if (seed.slope > result.steepest.slope && inside(seed.high))
         result.steepest = {seed.low, seed.slope};
-      front.follow(seed);
+      if (!result.is_full)
+        front.follow(seed);
     }
-    result.is_full = front.is_overfull();
+    result.is_full |= front.is_overfull();
+    result.is_capped = front.is_full();
     result.limits = front.take();
   });
   return result;

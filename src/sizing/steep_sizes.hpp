@@ -44,10 +44,11 @@ public:
     std::vector<SizeLimit> limits; ///< places and sizes; empty if the size is nowhere too steep
     Steepest steepest{{}, 0};      ///< steepest pair of neighbouring samples in the shape
     bool is_full = false;          ///< true if there are more than the allowed number of places; some are missing
+    bool is_capped = false;        ///< true if the search has ended at its largest number of places; some are missing
   };
   /// @brief Returns the limits for a size; the same bits for any number of ranks and threads. Collective. Cost: about
   /// 200 evaluations of the field for each limit; there is about one limit for each 0.35 h along the edges of steep
-  /// parts, and at most SizingRules::most_steep_places. Each rank follows all edges.
+  /// parts, and at most SizingRules::most_places_searched. Each rank follows all edges.
   /// @throws what the field throws, on all ranks together
   /// @param asked the field times a factor
   /// @param most_places number of places at which the search ends, because a mesh with that size would have too many
