@@ -39,7 +39,7 @@ bool PatchChords::holds(const Patch& patch, LocalIndex v, const PatchMesh::Apexe
   return true;
 }
 
-/// The same for a chord of a curve inside the shape, which never changes.
+/// Returns whether a chord of a curve inside the shape holds. Such a chord never changes.
 bool PatchChords::wall_holds(const Patch& patch, LocalIndex u, LocalIndex w, const PatchMesh::Apexes& apexes) const {
   for (const LocalIndex apex : {apexes.left, apexes.right})
     if (apex >= PatchMesh::frame && start_.has_changed(patch, apex) &&

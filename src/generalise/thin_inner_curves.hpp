@@ -11,9 +11,10 @@
 
 namespace trime::generalise {
 
-/// @brief Returns the curves without vertices whose removal changes little. Among the vertices of an arc, that one goes
-/// first whose triangle with its neighbours has the smallest area (Visvalingam and Whyatt 1993), as long as this area
-/// is below GeneraliseRules::vertex_area h^2 and no vertex moves the curve by more than GeneraliseRules::vertex_move h.
+/// @brief Returns the curves without vertices whose removal changes little. The vertex of an arc whose triangle with
+/// its neighbours has the smallest area goes first (Visvalingam and Whyatt 1993). This ends when the smallest area is
+/// GeneraliseRules::vertex_area h^2. A vertex stays if it is farther than GeneraliseRules::vertex_move h from the edge
+/// that would replace it.
 ///
 /// Nodes, corners that the user asked for, and all other curves stay on their side: a vertex stays if its triangle
 /// contains a vertex of another curve or of the boundary (see VertexTree). Only straight pieces are changed. Cost: O(n

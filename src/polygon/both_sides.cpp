@@ -16,7 +16,7 @@ using geometry::Vec2;
 /// it.
 struct Arm {
   double angle;         ///< [radians]
-  LocalIndex out, back; ///< -1: there is none, because it is a chord of the boundary
+  LocalIndex out, back; ///< -1 at a chord of the boundary, which has only one side
 };
 
 /// Joins the entries around one place: whoever arrives along an arm leaves along the next one clockwise.
