@@ -38,4 +38,7 @@ inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
 /// should try many small ones; other tests use large contours.
 void use(const contours::Contour& contour);
 
+/// Uses the lines of curves in the same way: as curves inside a square, clipped to it and not.
+void use_curves(const contours::Contour& contour);
+
 } // namespace trime::fuzz

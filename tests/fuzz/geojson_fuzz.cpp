@@ -4,7 +4,10 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace trime;
-  for (const char* attribute : {"", "kind"})
-    fuzz::survives([&] { fuzz::use(contours::parse_geojson(fuzz::text_of(data, size), "a.geojson", attribute)); });
+  const std::string_view text = fuzz::text_of(data, size);
+  for (const char* attribute : {"", "kind"}) {
+    fuzz::survives([&] { fuzz::use(contours::parse_geojson(text, "a.geojson", attribute)); });
+    fuzz::survives([&] { fuzz::use_curves(contours::parse_curves(text, "a.geojson", attribute)); });
+  }
   return 0;
 }

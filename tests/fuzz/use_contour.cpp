@@ -39,4 +39,35 @@ void use(const contours::Contour& contour) {
     });
 }
 
+void use_curves(const contours::Contour& contour) {
+  constexpr std::size_t most_vertices = 100;
+  std::size_t vertices = 0;
+  for (const contours::ContourRing& ring : contour.rings)
+    vertices += ring.points.size();
+  TRIME_ASSERT(!contour.rings.empty(), "curves without a line");
+  const std::string bytes = contours::to_bytes(contour);
+  TRIME_ASSERT(contours::to_bytes(contours::contour_of_bytes(bytes)) == bytes, "{} bytes", bytes.size());
+  if (vertices > most_vertices)
+    return;
+  for (const char clip : {'\0', '\1'})
+    survives([&] {
+      const geometry::Frame frame({{0, 0}, {1, 1}});
+      const contours::Normalization place = contours::fit_to_container(contour, frame.container());
+      std::vector<shape::CurveLine> lines;
+      for (const contours::ContourRing& ring : contour.rings) {
+        shape::CurveLine& line = lines.emplace_back();
+        line.closed = !ring.open;
+        for (const geometry::Vec2 p : ring.points)
+          line.points.push_back(clip != 0 ? 2 * place.apply(p) : place.apply(p));
+      }
+      shape::CurveParts curves;
+      curves.curves.push_back(shape::Part::curve("curve", std::move(lines), frame));
+      curves.clip = {clip};
+      const geometry::Domain domain = shape::domain_of({}, "domain", frame, curves);
+      for (const geometry::InnerArc& arc : domain.curves().arcs)
+        for (std::size_t k = 1; k < arc.pieces.size(); ++k)
+          TRIME_ASSERT(arc.pieces[k].start == arc.pieces[k - 1].end, "an arc with a gap");
+    });
+}
+
 } // namespace trime::fuzz
