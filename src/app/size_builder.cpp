@@ -104,11 +104,13 @@ std::string advice_on_names(const RunOptions& options) {
   return advice;
 }
 
-/// @throws ConfigError on all ranks if size_at has a name that no part of the boundary has
+/// @throws ConfigError on all ranks if size_at has a name that no part of the boundary and no curve has
 void check_names(const RunOptions& options, const geometry::Domain& domain) {
+  std::vector<std::string> names = domain.boundary().part_names;
+  names.insert(names.end(), domain.curves().names.begin(), domain.curves().names.end());
   try {
     for (const sizing::NamedSize& named : options.sizing.size_at)
-      sizing::parts_named(named.name, domain.boundary().part_names);
+      sizing::parts_named(named.name, names);
   } catch (const ConfigError& error) {
     throw ConfigError(fmt::format("{}: {}{}", options.sizing.size_at_place, error.what(), advice_on_names(options)));
   }
