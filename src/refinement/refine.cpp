@@ -303,7 +303,7 @@ void Refiner::divide_triangles(mesh::DistributedMesh& made) const {
       Ids& made_ids = all[slot++];
       for (std::size_t j = 0; j < 3; ++j)
         made_ids[j] = ids[static_cast<std::size_t>(child[j])];
-      std::ranges::rotate(made_ids, std::ranges::min_element(made_ids));
+      std::rotate(made_ids.begin(), std::ranges::min_element(made_ids), made_ids.end());
     }
   });
   const std::vector<LocalIndex> order = sorted(all, made.points.size());
