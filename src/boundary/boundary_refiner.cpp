@@ -176,7 +176,7 @@ void BoundaryRefiner::add_open_curve(std::span<const LoopSite> loop_sites) {
 void BoundaryRefiner::join_nodes() {
   if (metrics_.size() == boundary_loops_)
     return;
-  const auto is_end = [this](const Site& site) { return site.next < 0 || site.previous < 0; };
+  const auto is_end = [](const Site& site) { return site.next < 0 || site.previous < 0; };
   std::map<std::pair<double, double>, LocalIndex> nodes;
   for (const Site& site : sites_)
     if (is_end(site))

@@ -52,11 +52,12 @@ double length_of(const InnerCurves& curves) {
 }
 
 TEST(InnerCurves, AreCutAtCrossings) {
+  const Vec2 middle{0.5, 0.5};
   const geometry::Domain domain = square_with({{{0.25, 0.25}, {0.75, 0.75}}, {{0.25, 0.75}, {0.75, 0.25}}});
   ASSERT_EQ(domain.curves().arcs.size(), 4U);
   for (const InnerArc& arc : domain.curves().arcs) {
     EXPECT_FALSE(arc.closed);
-    EXPECT_TRUE(arc.pieces.front().start == Vec2(0.5, 0.5) || arc.pieces.back().end == Vec2(0.5, 0.5));
+    EXPECT_TRUE(arc.pieces.front().start == middle || arc.pieces.back().end == middle);
     EXPECT_EQ(arc.start_wedge, 0);
   }
   EXPECT_EQ(domain.boundary().loops.at(0).pieces.size(), 4U);
