@@ -33,9 +33,9 @@ public:
             wide.note([&] { return place_of(mesh_, found->first); });
         }
     Tally no_edges;
-    for (const auto& [edge, count] : triangles_)
-      if (count != 2)
-        no_edges.note([&] { return place_of(mesh_, edge); });
+    for (const auto& of_edge : triangles_)
+      if (of_edge.second != 2)
+        no_edges.note([&] { return place_of(mesh_, of_edge.first); });
     report_.none("curve_edges", no_edges, "edges on curves that are not edges of two triangles");
     report_.none("curve_once", twice, "edges on curves that are listed twice");
     report_.none("curve_discs", wide, "edges on curves with an angle above 90 degrees opposite to them");
