@@ -93,8 +93,8 @@ geometry::Box box_of(std::span<const Contour> contours) {
 
 /// Does the map reach both sides of the date line, as one that is cut there?
 bool is_cut_at_date_line(const geometry::Box& box) {
-  constexpr double date_line = 180, on_meridian = 1e-9;
-  return std::fabs(box.min.x + date_line) <= on_meridian && std::fabs(box.max.x - date_line) <= on_meridian;
+  return std::fabs(box.min.x + contours::date_line) <= contours::on_meridian &&
+         std::fabs(box.max.x - contours::date_line) <= contours::on_meridian;
 }
 
 /// Degrees where metres were meant would lose nearly all of the shape: edges of metres are longer than all of it.

@@ -16,20 +16,10 @@ namespace {
 using record::Attributes;
 using record::column;
 
-/// Program, machine and options: known before the run.
+/// Machine and options: known before the run.
 Attributes run_attributes(const Provenance& p) {
-  const BuildInfo build = build_info();
   const char* job = std::getenv("SLURM_JOB_ID");
-  return {{"program_version", build.version},
-          {"git_commit", build.git_commit},
-          {"build_type", build.build_type},
-          {"compiler", build.compiler},
-          {"mpi_library", build.mpi_library},
-          {"hdf5_library", build.hdf5_library},
-          {"created_utc", utc_time()},
-          {"command_line", io::shortened(p.line.as_given, 1000)}, // whole among the texts
-          {"host", host_name()},
-          {"job_id", std::string(job ? job : "")},
+  return {{"job_id", std::string(job ? job : "")},
           {"seed", p.options.mesh.seed},
           {"method", method_name(p.options.mesh.method)},
           {"mpi_ranks", std::int64_t{p.placement.ranks}},
@@ -91,8 +81,8 @@ Attributes open_attributes(const Provenance& p) {
 
 /// Describes what is known before the run.
 Attributes given_attributes(const Provenance& p) {
-  return joined({record::format_attributes(), run_attributes(p), open_attributes(p), record::place_attributes(p.origin),
-                 normalization_attributes(p.normalized)});
+  return joined({record::format_attributes(), program_attributes(p.line), run_attributes(p), open_attributes(p),
+                 record::place_attributes(p.origin), normalization_attributes(p.normalized)});
 }
 
 std::vector<io::Text> texts(const Provenance& p) {
@@ -154,6 +144,19 @@ io::MetadataGroup quality_group(const mesh::QualitySummary& quality, const Prove
 }
 
 } // namespace
+
+std::vector<io::Attribute> program_attributes(const CommandLine& line) {
+  const BuildInfo build = build_info();
+  return {{"program_version", build.version},
+          {"git_commit", build.git_commit},
+          {"build_type", build.build_type},
+          {"compiler", build.compiler},
+          {"mpi_library", build.mpi_library},
+          {"hdf5_library", build.hdf5_library},
+          {"created_utc", utc_time()},
+          {"command_line", io::shortened(line.as_given, 1000)}, // whole among the texts
+          {"host", host_name()}};
+}
 
 io::Metadata describe_run(const Provenance& p, const meshing::MeshResult& result, const SizeSummary& size,
                           const Measurements& measured) {

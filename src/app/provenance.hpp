@@ -18,6 +18,9 @@
 
 namespace trime::app {
 
+/// Returns the attributes with the versions of the program and its libraries, the command, the time and the host.
+std::vector<io::Attribute> program_attributes(const CommandLine& line);
+
 /// The sources of the metadata: command line, options, machine, shape. Only the values of rank 0 are written.
 /// @pre all references outlive this object
 struct Provenance {

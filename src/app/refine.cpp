@@ -7,6 +7,7 @@
 #include "comm/agree.hpp"
 #include "core/quoted.hpp"
 #include "formats/output_files.hpp"
+#include "record/groups.hpp"
 #include "trime/core/timer.hpp"
 #include "trime/refinement/refine.hpp"
 
@@ -86,14 +87,10 @@ geometry::Frame frame_around(const mesh::DistributedMesh& mesh, const Metadata& 
 
 /// Sets the limits that the mesh had to keep.
 void take_promises(const Metadata& metadata, refinement::Surroundings& surroundings) {
-  if (!io::find_group(metadata, "checks"))
-    return;
-  const auto& names = io::column_of<std::string>(metadata, "checks", "name");
-  const auto& expected = io::column_of<double>(metadata, "checks", "expected");
-  for (std::size_t k = 0; k < std::min(names.size(), expected.size()); ++k)
-    if (names[k] == "worst_alpha")
-      surroundings.worst_alpha = expected[k];
-    else if (names[k] == "longest_edge")
+  for (const mesh::Check& check : record::checks_of(metadata))
+    if (check.name == "worst_alpha")
+      surroundings.worst_alpha = check.expected;
+    else if (check.name == "longest_edge")
       surroundings.limits_edges = true;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/refined_metadata.hpp"
 
+#include "app/provenance.hpp"
 #include "core/thread_loop.hpp"
 #include "record/groups.hpp"
 #include "trime/record/describe.hpp"
@@ -45,19 +46,9 @@ void scale(Attributes& attributes, const std::string& name, double factor) {
       *value *= factor;
 }
 
-/// The program that has refined the mesh.
-Attributes program_attributes(const CommandLine& line, double seconds, const comm::Communicator& comm) {
-  const BuildInfo build = build_info();
-  return {{"program_version", build.version},
-          {"git_commit", build.git_commit},
-          {"build_type", build.build_type},
-          {"compiler", build.compiler},
-          {"mpi_library", build.mpi_library},
-          {"hdf5_library", build.hdf5_library},
-          {"created_utc", utc_time()},
-          {"command_line", io::shortened(line.as_given, 1000)},
-          {"host", host_name()},
-          {"mpi_ranks", std::int64_t{comm.size()}},
+/// Where the mesh was refined, and how long that took.
+Attributes place_of_refinement(double seconds, const comm::Communicator& comm) {
+  return {{"mpi_ranks", std::int64_t{comm.size()}},
           {"omp_threads", std::int64_t{thread_count()}},
           {"setup_threads", std::int64_t{thread_count()}},
           {"seconds_total", seconds}};
@@ -106,17 +97,9 @@ MetadataGroup tags_group(const Metadata& metadata, const std::vector<polygon::Lo
 /// Adds the failed checks of the mesh that was refined, unless the refined mesh has a check of the same name: a
 /// boundary that lies too far from the shape still does.
 mesh::Checks with_failed(mesh::Checks checks, const Metadata& metadata) {
-  if (!io::find_group(metadata, "checks"))
-    return checks;
-  const auto& names = io::column_of<std::string>(metadata, "checks", "name");
-  const auto& expected = io::column_of<double>(metadata, "checks", "expected");
-  const auto& found = io::column_of<double>(metadata, "checks", "found");
-  const auto& passed = io::column_of<std::int32_t>(metadata, "checks", "passed");
-  const auto& meaning = io::column_of<std::string>(metadata, "checks", "meaning");
-  for (std::size_t k = 0; k < std::min({names.size(), expected.size(), found.size(), passed.size(), meaning.size()});
-       ++k)
-    if (passed[k] == 0 && std::ranges::find(checks, names[k], &mesh::Check::name) == checks.end())
-      checks.push_back({names[k], expected[k], found[k], false, meaning[k]});
+  for (const mesh::Check& check : record::checks_of(metadata))
+    if (!check.passed && std::ranges::find(checks, check.name, &mesh::Check::name) == checks.end())
+      checks.push_back(check);
   return checks;
 }
 
@@ -151,7 +134,7 @@ Metadata refined_metadata(const Metadata& metadata, const refinement::Refined& r
   const mesh::Checks checks = with_failed(refined.checks, metadata);
   const bool stopped_early = value_or(metadata, "stop_reason", std::string()) == "sweep cap";
   Metadata made{metadata.attributes, texts(metadata, line), {}};
-  // Of the run alone, which took another time and memory.
+  // These values belong to the first run, which took another time and other memory.
   std::erase_if(made.attributes, [](const Attribute& attribute) {
     return attribute.name == "most_points_of_a_rank" || attribute.name == "peak_memory_bytes" ||
            attribute.name == "bytes_per_point" || attribute.name == "nodes" || attribute.name == "job_id" ||
@@ -159,7 +142,8 @@ Metadata refined_metadata(const Metadata& metadata, const refinement::Refined& r
   });
   scale(made.attributes, "edge_length", 0.5);
   scale(made.attributes, "coarseness", 2);
-  set(made.attributes, program_attributes(line, seconds, comm));
+  set(made.attributes, program_attributes(line));
+  set(made.attributes, place_of_refinement(seconds, comm));
   set(made.attributes,
       record::mesh_attributes(refined.mesh, static_cast<int>(value_or(metadata, "retriangulation", std::int64_t{1}))));
   set(made.attributes, {{"smallest_size", sizes.smallest},

@@ -94,7 +94,7 @@ void check_largest_size(const RunOptions& options, const geometry::Domain& domai
         most_points, options.projection.empty() ? "" : ", which are projected into a plane, usually metres"));
 }
 
-/// What a user can do if size_at has a name that no part of the boundary has.
+/// Returns what a user can do if size_at has a name that no part of the boundary has.
 std::string advice_on_names(const RunOptions& options) {
   std::string advice = "; write a list as 'coast 200, open sea 2000'";
   for (const PartOptions& part : options.parts)

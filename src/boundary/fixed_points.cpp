@@ -241,9 +241,8 @@ void FixedPoints::place_among(mesh::SiteList& sites, const mesh::TileRange& tile
   thread_loop(static_cast<std::ptrdiff_t>(sites.size()), 256, [&](std::ptrdiff_t item, int) {
     const auto k = static_cast<std::size_t>(item);
     const mesh::Site& site = sites[k];
-    taken[k] = (site.boundary == mesh::fixed_site && held_.empty()) || // from an earlier stage
-               (site.boundary == mesh::free_site &&
-                is_near(site.position, BoundaryRules::fixed_clearance * size.size(site.position)));
+    taken[k] = site.boundary == mesh::free_site &&
+               is_near(site.position, BoundaryRules::fixed_clearance * size.size(site.position));
   });
   std::size_t kept = 0;
   for (std::size_t k = 0; k < sites.size(); ++k)

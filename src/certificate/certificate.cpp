@@ -182,7 +182,7 @@ private:
     const bool is_corner = b >= 0 && view_.polygon.sites[at(b)].corner;
     if (b == mesh::fixed_site || is_corner)
       counts_.fixed += std::binary_search(view_.fixed.begin(), view_.fixed.end(), p, geometry::lexicographically_less);
-    count_curve_edges(site, p);
+    count_curve_edges(p);
     if (b < 0 || p != view_.polygon.sites[at(b)].position)
       return;
     counts_.corners += is_corner;
@@ -195,12 +195,18 @@ private:
         facet_hash(numbering_.global_id(numbering_.vertex(site)), ids_[0], to_next.tag, to_next.part);
   }
 
-  /// Counts the chords of inner curves that begin here and are edges, and whose diametral discs hold no apex.
-  void count_curve_edges(LocalIndex, Vec2 p) {
+  /// Counts the chords of inner curves that begin here, are edges, and whose open diametral discs hold no third vertex
+  /// of their two triangles.
+  void count_curve_edges(Vec2 p) {
     const polygon::InnerChords& inner = view_.polygon.inner;
     for (const LocalIndex half : inner.at(p))
-      for (std::size_t k = 0; half % 2 == 0 && k < fan_.edges; ++k)
-        counts_.curve_edges += fan_.positions[k] == inner.other_end(half);
+      for (std::size_t k = 0; half % 2 == 0 && k < fan_.edges; ++k) {
+        if (fan_.positions[k] != inner.other_end(half) || (!fan_.closed && (k == 0 || k == fan_.triangles)))
+          continue;
+        const Vec2 q = fan_.positions[k], before = fan_.positions[k > 0 ? k - 1 : fan_.triangles - 1];
+        counts_.curve_edges +=
+            geometry::diametral_side(p, q, before) >= 0 && geometry::diametral_side(p, q, fan_.positions[k + 1]) >= 0;
+      }
   }
 
   void count_triangles(LocalIndex own, Vec2 p) {
@@ -358,7 +364,8 @@ void add_point_checks(const Counts& counts, const StageView& view, std::int64_t 
               "fixed points that are vertices of the mesh, with equal bits after rounding to the coordinate lattice"));
   if (const polygon::InnerChords& inner = view.polygon.inner; !inner.empty())
     checks.push_back(check("curve_edges", std::ssize(inner.chords), counts.curve_edges,
-                           "chords of the curves inside that are edges of the mesh, with equal bits"));
+                           "chords of the curves inside that are edges of two triangles, with angles of at most 90 "
+                           "degrees opposite to them"));
   checks.push_back(check("unused_points", 0, counts.unused, "points without a triangle"));
   const ExactArea polygon = polygon_area(view.polygon, view.lattice);
   checks.push_back({"area", polygon.value(view.lattice), counts.area.value(view.lattice),

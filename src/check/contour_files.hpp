@@ -16,7 +16,7 @@ struct ContourRings {
   std::vector<int> polygon = {}; ///< number of the polygon of each ring in a map; 0 for lines; empty for other files
 };
 
-/// What happens to lines of a map that do not close a ring.
+/// Says whether lines of a map that do not close a ring make the map unreadable, or are ignored.
 enum class OpenLines { refuse, leave_out };
 
 /// Reads a contour file by its ending. Rings are as the file has them, without the repeated first vertex.

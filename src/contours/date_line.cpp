@@ -13,9 +13,6 @@ namespace {
 
 using geometry::Vec2;
 
-constexpr double date_line = 180;
-/// [degrees] A longitude within this distance of the meridian is on it: 0.1 mm.
-constexpr double on_meridian = 1e-9;
 /// [degrees] An edge that begins at -180 and is longer gets a vertex at this distance: once -180 is 180, only a short
 /// edge obviously crosses the date line.
 constexpr double obvious = 45;

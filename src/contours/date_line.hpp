@@ -6,6 +6,9 @@
 
 namespace trime::contours {
 
+/// [degrees] Longitude at which maps are cut, and a distance within which a longitude is this one: 0.1 mm.
+inline constexpr double date_line = 180, on_meridian = 1e-9;
+
 /// Which rings join_at_date_line may join.
 enum class DateLine {
   join,          ///< all rings of the contour

@@ -25,7 +25,7 @@ struct FeatureName {
 class FeatureRings {
 public:
   enum class Kind { polygon, line };
-  /// What is made of lines: rings, or lines of a curve (then the borders of polygons are such lines, too).
+  /// Says whether the features bound a shape (rings), or are curves inside one. The border of a polygon can be either.
   enum class Use { rings, curves };
 
   /// @param contour its member `source` must be set; receives rings, names and warnings, and must outlive this object

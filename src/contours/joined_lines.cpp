@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "contours/joined_lines.hpp"
 
+#include "contours/date_line.hpp"
 #include "contours/map_features.hpp"
 
 #include <fmt/core.h>
@@ -17,9 +18,6 @@ namespace {
 
 using geometry::Vec2;
 
-constexpr double date_line = 180;
-/// [degrees] A longitude within this distance of the meridian is on it, as in date_line.cpp.
-constexpr double on_meridian = 1e-9;
 /// [degrees] Only an edge that is shorter obviously crosses the date line once -180 is 180.
 constexpr double obvious = 90;
 

@@ -7,6 +7,7 @@
 #include "facade/check_options.hpp"
 #include "facade/names.hpp"
 #include "formats/output_files.hpp"
+#include "record/groups.hpp"
 #include "sizing/rules.hpp"
 #include "trime/comm/from_mpi.hpp"
 #include "trime/core/error.hpp"
@@ -118,20 +119,6 @@ record::Origin origin_of(const io::Metadata& metadata) {
   origin.crs = io::attribute_of<std::string>(metadata, "crs");
   origin.curve_names = io::curve_names(metadata);
   return origin;
-}
-
-mesh::Checks checks_of(const io::Metadata& metadata) {
-  mesh::Checks checks;
-  if (io::find_group(metadata, "checks") == nullptr)
-    return checks;
-  const auto& names = io::column_of<std::string>(metadata, "checks", "name");
-  const auto& expected = io::column_of<double>(metadata, "checks", "expected");
-  const auto& found = io::column_of<double>(metadata, "checks", "found");
-  const auto& passed = io::column_of<std::int32_t>(metadata, "checks", "passed");
-  const auto& meanings = io::column_of<std::string>(metadata, "checks", "meaning");
-  for (std::size_t k = 0; k < names.size(); ++k)
-    checks.push_back({names.at(k), expected.at(k), found.at(k), passed.at(k) != 0, meanings.at(k)});
-  return checks;
 }
 
 mesh::QualitySummary quality_of(const io::Metadata& metadata) {
@@ -304,7 +291,7 @@ Mesh read_mesh(MPI_Comm handle, const std::string& path) {
       {"history", "quality", "checks", "worst_triangles", "tags", "sharp_corners", "rings", "curves", "normalization"},
       *read->communicator);
   read->origin = origin_of(read->metadata);
-  read->result.checks = checks_of(read->metadata);
+  read->result.checks = record::checks_of(read->metadata);
   read->result.quality = quality_of(read->metadata);
   read->result.mesh = io::read_mesh(path, read->metadata, *read->communicator);
   return Mesh(std::move(read));

@@ -330,15 +330,17 @@ void rescale(const LayoutContext& context, FittedSize& fitted, Stage& laid, doub
 
 namespace {
 
-/// Replaces the sites on curves of an earlier stage by those of this one that lie in the tiles.
-void place_on_curves(const Stage& stage, const mesh::TileRange& tiles, mesh::SiteList& sites) {
-  if (stage.polygon.inner.empty())
-    return;
+/// Removes the fixed points and the sites on curves of an earlier stage. Each stage places its own.
+void remove_fixed(mesh::SiteList& sites) {
   std::size_t kept = 0;
   for (std::size_t k = 0; k < sites.size(); ++k)
     if (sites[k].boundary != mesh::fixed_site)
       sites[kept++] = sites[k];
   sites.resize(kept);
+}
+
+/// Adds the sites on curves that lie in the tiles.
+void place_on_curves(const Stage& stage, const mesh::TileRange& tiles, mesh::SiteList& sites) {
   for (const geometry::Vec2 p : stage.polygon.inner.sites) {
     const LocalIndex tile = tiles.grid.place(p).tile;
     if (tile >= tiles.first && tile < tiles.last)
@@ -357,7 +359,10 @@ void place_sites(const LayoutContext& context, Stage& stage, mesh::SiteList inne
   for (std::ptrdiff_t b = on_boundary * context.comm.rank() / ranks;
        b < on_boundary * (context.comm.rank() + 1) / ranks; ++b)
     inner.push_back({stage.polygon.sites[static_cast<std::size_t>(b)].position, static_cast<std::int32_t>(b)});
-  place_on_curves(stage, tiles, inner);
+  if (!context.fixed.empty() || !stage.polygon.inner.empty()) {
+    remove_fixed(inner);
+    place_on_curves(stage, tiles, inner);
+  }
   comm::run_agreed(context.comm, [&] { context.fixed.place_among(inner, tiles, *stage.size); });
   stage.state->distribute(std::move(inner));
 }

@@ -2,6 +2,7 @@
 #include "trime/handover/local_mesh.hpp"
 
 #include "comm/agree.hpp"
+#include "comm/outbox.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
@@ -10,6 +11,9 @@
 
 namespace trime::handover {
 namespace {
+
+using comm::Outbox;
+using comm::send;
 
 using geometry::Vec2;
 
@@ -32,18 +36,6 @@ struct PointValues {
 };
 
 constexpr auto by_id = [](const auto& a, const auto& b) { return a.id < b.id; };
-
-/// Values for other ranks.
-template <class T>
-using Outbox = std::map<int, std::vector<T>>;
-
-template <class T>
-std::vector<comm::Message> send(const comm::Communicator& comm, const Outbox<T>& outbox) {
-  std::vector<comm::Message> outgoing;
-  for (const auto& [rank, values] : outbox)
-    outgoing.push_back({rank, comm::to_bytes(std::span<const T>(values))});
-  return comm.exchange_any(outgoing);
-}
 
 /// Sends the messages and appends what arrives.
 template <class T>

@@ -257,6 +257,20 @@ io::MetadataGroup tags_group(const Origin& origin, const std::vector<polygon::Lo
            {"region_name", std::vector<std::string>{origin.region}}}};
 }
 
+mesh::Checks checks_of(const io::Metadata& metadata) {
+  mesh::Checks checks;
+  if (io::find_group(metadata, "checks") == nullptr)
+    return checks;
+  const auto& names = io::column_of<std::string>(metadata, "checks", "name");
+  const auto& expected = io::column_of<double>(metadata, "checks", "expected");
+  const auto& found = io::column_of<double>(metadata, "checks", "found");
+  const auto& passed = io::column_of<std::int32_t>(metadata, "checks", "passed");
+  const auto& meanings = io::column_of<std::string>(metadata, "checks", "meaning");
+  for (std::size_t k = 0; k < names.size(); ++k)
+    checks.push_back({names.at(k), expected.at(k), found.at(k), passed.at(k) != 0, meanings.at(k)});
+  return checks;
+}
+
 io::Metadata with_curves(io::Metadata metadata, const Origin& origin) {
   if (origin.curve_names.empty())
     return metadata;

@@ -42,6 +42,8 @@ Attributes result_attributes(const meshing::MeshResult& result);
 io::MetadataGroup history_group(const std::vector<sweep::SweepRecord>& history);
 io::MetadataGroup quality_group(const mesh::QualitySummary& quality);
 io::MetadataGroup checks_group(const mesh::Checks& checks);
+/// Returns the checks in the metadata of a file; none if it has no group with them.
+mesh::Checks checks_of(const io::Metadata& metadata);
 /// Returns the table of the worst triangles, QualitySummary::worst_triangles.
 io::MetadataGroup bad_triangles_group(const mesh::QualitySummary& quality);
 /// Returns the tables that explain the numbers in /Mesh/facets: the array `values` contains edge_id, the array `parts`

@@ -22,7 +22,7 @@ struct PlacedFacet {
   std::int32_t tag, part;
 };
 
-/// What the boundary edges of a mesh are together.
+/// The loops that the boundary edges of a mesh form, with their faults.
 struct BoundaryWalk {
   std::vector<polygon::LoopSummary> loops; ///< ordered by tag; `parts` are left empty
   certificate::ExactArea area;             ///< inside the loops

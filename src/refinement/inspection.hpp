@@ -21,7 +21,7 @@ struct ExpectedCounts {
   std::int64_t fixed_inside = 0; ///< fixed points inside
 };
 
-/// What the arrays of a mesh say about it.
+/// Quality, checks and loops of a mesh, computed from its arrays.
 struct Inspection {
   mesh::QualitySummary quality;
   mesh::Checks checks;

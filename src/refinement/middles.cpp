@@ -38,7 +38,7 @@ Middles::Middles(const comm::Communicator& comm, const geometry::Frame& frame, c
   if (!curves)
     return;
   place_on_curves(*curves);
-  for (std::vector<Ends> failed;;) {
+  for (std::vector<Ends> failed;;) { // each round straightens an edge that was curved
     failed = comm::gather_everywhere(comm, failures());
     if (failed.empty())
       failed = comm::gather_everywhere(comm, crossings());

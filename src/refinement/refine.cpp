@@ -2,6 +2,7 @@
 #include "trime/refinement/refine.hpp"
 
 #include "comm/agree.hpp"
+#include "comm/outbox.hpp"
 #include "core/thread_loop.hpp"
 #include "extraction/extraction.hpp"
 #include "refinement/edge_table.hpp"
@@ -19,20 +20,11 @@
 namespace trime::refinement {
 namespace {
 
+using comm::Outbox;
+using comm::send;
+
 using geometry::Vec2;
 using Ids = std::array<GlobalId, 3>;
-
-/// Values for other ranks.
-template <class T>
-using Outbox = std::map<int, std::vector<T>>;
-
-template <class T>
-std::vector<comm::Message> send(const comm::Communicator& comm, const Outbox<T>& outbox) {
-  std::vector<comm::Message> outgoing;
-  for (const auto& [rank, values] : outbox)
-    outgoing.push_back({rank, comm::to_bytes(std::span<const T>(values))});
-  return comm.exchange_any(outgoing);
-}
 
 /// Throws on all ranks if the local indices of a rank do not suffice.
 void check_room(const comm::Communicator& comm, const handover::LocalMesh& mesh, const EdgeTable& edges) {

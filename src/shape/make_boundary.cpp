@@ -10,6 +10,7 @@
 #include "shape/boundary_area.hpp"
 #include "shape/inner_curves.hpp"
 #include "shape/part_images.hpp"
+#include "shape/parts_beside.hpp"
 #include "shape/region_state.hpp"
 #include "shape/vertex_table.hpp"
 #include "trime/core/error.hpp"
@@ -54,43 +55,6 @@ Piece reversed_arc(Piece arc) {
   arc.sweep = -arc.sweep;
   return arc;
 }
-
-/// The placed parts on the left and on the right of one piece after the other.
-class PartsBeside {
-public:
-  explicit PartsBeside(std::size_t parts) : piece_of_(parts, 0), is_left_(parts, 0) {}
-
-  void begin() {
-    ++piece_;
-    for (std::vector<int>* parts : {&known_, &left_, &right_})
-      parts->clear();
-  }
-  /// A curve of the part runs along the piece. The last word about a part holds.
-  void set(int part, bool on_left) {
-    if (!has(static_cast<std::size_t>(part)))
-      known_.push_back(part);
-    piece_of_[static_cast<std::size_t>(part)] = piece_;
-    is_left_[static_cast<std::size_t>(part)] = on_left ? 1 : 0;
-  }
-  bool has(std::size_t part) const { return piece_of_[part] == piece_; }
-  /// Call it once all parts are set.
-  void divide() {
-    for (const int part : known_)
-      (is_left_[static_cast<std::size_t>(part)] != 0 ? left_ : right_).push_back(part);
-  }
-  void add_on_both(int part) {
-    left_.push_back(part);
-    right_.push_back(part);
-  }
-  const std::vector<int>& left() const { return left_; }
-  const std::vector<int>& right() const { return right_; }
-
-private:
-  std::size_t piece_ = 0;             // number of the present one, from 1
-  std::vector<std::size_t> piece_of_; // the last one for which each part was set
-  std::vector<char> is_left_;
-  std::vector<int> known_, left_, right_;
-};
 
 class BoundaryMaker {
 public:
