@@ -204,8 +204,8 @@ class Refine(unittest.TestCase):
         """A vertex stays in the middle of its edge if the triangles would be bad on the curve; trime_check knows."""
         path = self.refine(self.mesh(ROOT / "configs" / "boolean.ini", "meshing.points=80"))[0]
         finer_path, output = self.refine(path, "finer.h5")
-        self.assertIn("1 of 60 new boundary points lie in the middles of boundary edges, because on the curve of the shape "
-                      "they would make bad triangles", output)
+        self.assertIn("1 of 60 new boundary points lie in the middles of boundary edges, because on the curve of the "
+                      "shape they would make bad triangles", output)
         self.compare(path, finer_path)
         self.assertEqual(arrays(self.refine(finer_path, "finest.h5")[0])[1]["middles_refused"], 1)
 

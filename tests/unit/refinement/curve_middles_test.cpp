@@ -54,9 +54,9 @@ TEST(CurveMiddles, AreUnknownOffTheCurveAndWhereItDoesNotBelongToTheEdge) {
   const geometry::Boundary square =
       boundary_of(shape::Part::rectangle("square", {{0.25, 0.25}, {0.75, 0.75}}, plane), plane);
   const CurveMiddles middles(square, 1);
-  EXPECT_FALSE(middles.middle({0.3, 0.26}, {0.4, 0.25}, 0)); // an end lies off it
-  EXPECT_FALSE(middles.middle({0.3, 0.25}, {0.4, 0.25}, 1)); // another part
-  EXPECT_FALSE(middles.middle({0.4, 0.25}, {0.3, 0.25}, 0)); // backwards: all around
+  EXPECT_FALSE(middles.middle({0.3, 0.26}, {0.4, 0.25}, 0));   // an end lies off it
+  EXPECT_FALSE(middles.middle({0.3, 0.25}, {0.4, 0.25}, 1));   // another part
+  EXPECT_FALSE(middles.middle({0.4, 0.25}, {0.3, 0.25}, 0));   // backwards: all around
   EXPECT_FALSE(middles.middle({0.45, 0.25}, {0.45, 0.75}, 0)); // far around
 }
 
