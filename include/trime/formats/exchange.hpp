@@ -44,12 +44,14 @@ std::optional<Format> format_of_path(const std::string& path);
 std::string words_of(bool FormatInfo::*property, const char* last);
 
 /// The names of the numbers in a mesh. In all formats a boundary edge that follows part k of the shape has the label k
-/// + 1, because 0 means inside. The labels of edges on curves inside follow those of the parts. A point has the lowest
-/// label of its edges. Regions keep their numbers, which begin with 1.
+/// + 1, because 0 means inside. The labels of edges on curves inside follow those of the parts, and then come the
+/// labels of interfaces between regions. An edge on a curve that is also an interface has the label of the curve. A
+/// point has the lowest label of its edges. Regions keep their numbers, which begin with 1.
 struct Names {
-  std::vector<std::string> parts;    ///< names, indexed by DistributedMesh::facet_parts
-  std::vector<std::string> regions;  ///< names of the regions 1, 2, ...
-  std::vector<std::string> curves{}; ///< names, indexed by DistributedMesh::curve_numbers
+  std::vector<std::string> parts;        ///< names, indexed by DistributedMesh::facet_parts
+  std::vector<std::string> regions;      ///< names of the regions 1, 2, ...
+  std::vector<std::string> curves{};     ///< names, indexed by DistributedMesh::curve_numbers
+  std::vector<std::string> interfaces{}; ///< names, indexed by DistributedMesh::interface_pairs
   /// Periods of the container; 0 in a direction in which it is not periodic.
   geometry::Vec2 period{0, 0};
   /// Reference system of the coordinates, as PROJ names it; empty: unknown.

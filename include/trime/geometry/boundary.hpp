@@ -6,6 +6,7 @@
 #include "trime/geometry/lattice.hpp"
 #include "trime/geometry/vec2.hpp"
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -22,6 +23,7 @@ struct Piece {
   int part = 0;           ///< the part of the shape from which the piece comes, as an index into Boundary::part_names
   bool circular = false;
   bool corner = false; ///< the mesh keeps the start as a corner, even if the curve hardly turns there
+  int region = 0;      ///< region on the left of a piece of the boundary, as an index into Regions::names
   double wedge = 0; ///< [radians] smallest angle between curves that meet at the start, if one of them lies inside the
                     ///< shape and the angle is below 60 degrees; otherwise 0
 
@@ -82,17 +84,19 @@ struct Boundary {
   Box bounding_box() const;
 };
 
-/// @brief A part of the curves inside a shape, from node to node. A node is an end of a curve, a place where curves
-/// meet or cross each other or the boundary, or a place where another curve begins. Arcs meet only in nodes.
+/// @brief A part of the curves and interfaces inside a shape, from node to node. A node is an end of a curve, a place
+/// where curves meet or cross each other or the boundary, or a place where another curve or another pair of regions
+/// begins. Arcs meet only in nodes.
 struct InnerArc {
   std::vector<Piece> pieces;             ///< each begins where the piece before it ends; Piece::part is an index into
-                                         ///< InnerCurves::names
+                                         ///< InnerCurves::names; -1 for an interface on which no curve lies
+  int left = 0, right = 0;               ///< regions on both sides, as indices into Regions::names
   bool closed = false;                   ///< a ring without a node: it ends where it begins
   double start_wedge = 0, end_wedge = 0; ///< Piece::wedge at its ends
 };
 
-/// @brief The curves inside a shape that edges of the mesh follow, cut at all their crossings. The mesh keeps all nodes
-/// bit for bit.
+/// @brief The curves inside a shape that edges of the mesh follow, and the interfaces between its regions, cut at all
+/// their crossings. The mesh keeps all nodes bit for bit.
 struct InnerCurves {
   std::vector<InnerArc> arcs;     ///< in the order of the names, then of the files
   std::vector<std::string> names; ///< names of the curves
@@ -100,6 +104,20 @@ struct InnerCurves {
   /// shape, where it is left out.
   std::vector<double> on_boundary{}, outside{};
   bool empty() const { return arcs.empty(); }
+};
+
+/// @brief The regions into which a shape is divided, such as materials. Region 0 is the rest, which no other region
+/// covers; it may be empty. In a mesh the regions have the numbers 1, 2, ... in the same order.
+struct Regions {
+  std::vector<std::string> names;          ///< at least that of the rest
+  std::vector<std::array<int, 2>> pairs{}; ///< regions that share an interface, the lower one first, in ascending order
+  std::vector<double> areas{};             ///< area of each region in the shape as it was given
+  /// Returns whether the shape is divided.
+  bool any() const { return names.size() > 1; }
+  /// Returns the name of the interface between the regions of a pair, such as `rock|soil`.
+  std::string pair_name(std::size_t pair) const {
+    return names[static_cast<std::size_t>(pairs[pair][0])] + "|" + names[static_cast<std::size_t>(pairs[pair][1])];
+  }
 };
 
 /// A point that the user wants as a vertex of the mesh.
@@ -114,7 +132,6 @@ struct FixedPoint {
 /// The names of the parts are Boundary::part_names. Pieces whose segments have a marker other than 0 form a separate
 /// part, listed after all parts without markers: "NAME.MARKER", or "NAME.TEXT" if the file has a name for the marker.
 /// Where two such parts meet on one curve there is a corner.
-/// @note Named regions of triangles will become members of this class once they are supported.
 class Domain {
 public:
   /// @brief Checks that the boundary belongs to the frame, and stores both. Cost: O(pieces).
@@ -138,12 +155,17 @@ public:
   const InnerCurves& curves() const { return curves_; }
   void set_curves(InnerCurves curves) { curves_ = std::move(curves); }
 
+  /// The regions of the shape. Where an interface between them meets the boundary, a piece of the boundary begins.
+  const Regions& regions() const { return regions_; }
+  void set_regions(Regions regions) { regions_ = std::move(regions); }
+
 private:
   Frame frame_;
   Boundary boundary_;
   std::vector<std::int32_t> part_markers_;
   std::vector<FixedPoint> fixed_points_;
   InnerCurves curves_;
+  Regions regions_;
 };
 
 } // namespace trime::geometry

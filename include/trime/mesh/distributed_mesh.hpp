@@ -24,7 +24,7 @@ struct Slab {
 /// Triangles store local indices of their vertices, which take half the memory of global ids: the points of the slab
 /// are numbered from 0, followed by points of other ranks. Memory: 25 bytes per point and 20 per triangle.
 struct DistributedMesh {
-  Slab point_slab, triangle_slab, facet_slab, curve_slab;
+  Slab point_slab, triangle_slab, facet_slab, curve_slab, interface_slab;
 
   // Arrays with one entry for each point of the slab.
   UnsetVector<geometry::Vec2> points;
@@ -36,7 +36,7 @@ struct DistributedMesh {
   // See global_id and triangle_ids.
   UnsetVector<std::array<LocalIndex, 3>> triangles;
   UnsetVector<float> alpha, beta;
-  std::vector<std::int32_t> region; ///< region of each triangle; empty: 1 for all triangles
+  std::vector<std::int32_t> region; ///< region of each triangle, from 1; empty: 1 for all triangles
 
   /// Global ids of the vertices that other ranks hold, ascending. The first of them has the local index points.size().
   std::vector<GlobalId> foreign;
@@ -53,6 +53,13 @@ struct DistributedMesh {
   // triangle on each side, and are not facets.
   std::vector<std::array<GlobalId, 2>> curve_edges;
   std::vector<std::int32_t> curve_numbers; ///< curve of the edge, as an index into geometry::InnerCurves::names
+
+  // Arrays with one entry for each edge between triangles of different regions; the region with the lower number lies
+  // on the left of first -> second.
+  std::vector<std::array<GlobalId, 2>> interfaces;
+  std::vector<std::array<std::int32_t, 2>> interface_regions; ///< numbers of the regions on the left and on the right
+  std::vector<std::int32_t> interface_pairs;  ///< the pair of regions, as an index into geometry::Regions::pairs
+  std::vector<std::int32_t> interface_curves; ///< the curve on which the edge lies, as in curve_numbers; -1: none
 
   /// Hash of points and triangles over all ranks, which does not depend on how they are distributed.
   std::uint64_t hash = 0;

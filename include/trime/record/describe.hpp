@@ -3,6 +3,7 @@
 #pragma once
 
 #include "trime/comm/communicator.hpp"
+#include "trime/geometry/boundary.hpp"
 #include "trime/geometry/vec2.hpp"
 #include "trime/io/metadata.hpp"
 #include "trime/mesh/distributed_mesh.hpp"
@@ -22,7 +23,7 @@ namespace trime::record {
 struct Origin {
   std::vector<std::string> part_names{};    ///< names of the parts, indexed by DistributedMesh::facet_parts
   std::vector<std::int32_t> part_markers{}; ///< marker of each part; 0: the part has no marker
-  std::string region{};                     ///< name of region 1, which is the expression that joins the parts
+  geometry::Regions regions{};              ///< names of the regions, and which of them share an interface
   geometry::Vec2 period{0, 0};              ///< sides of a periodic container; 0 in a direction that is not periodic
   std::string crs{};                        ///< reference system of the coordinates; empty: unknown
   std::vector<std::string> curve_names{};   ///< names of the curves, indexed by DistributedMesh::curve_numbers
