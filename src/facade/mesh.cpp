@@ -108,13 +108,29 @@ std::string text_of(const Size& size) {
   return size.function() || size.field() ? "a function of the program" : "uniform";
 }
 
+geometry::Regions regions_of(const io::Metadata& metadata) {
+  geometry::Regions regions{io::column_of<std::string>(metadata, "tags", "region_name")};
+  if (!io::has_regions(metadata))
+    return regions;
+  const auto& left = io::column_of<std::int32_t>(metadata, "interfaces", "left");
+  const auto& right = io::column_of<std::int32_t>(metadata, "interfaces", "right");
+  const auto last = std::ssize(regions.names);
+  for (std::size_t pair = 0; pair < std::min(left.size(), right.size()); ++pair) {
+    if (left[pair] < 1 || left[pair] > last || right[pair] < 1 || right[pair] > last)
+      throw FileError(fmt::format("/trime_mpi/interfaces names the regions {} and {}: expected numbers from 1 to {}; "
+                                  "the file is damaged",
+                                  left[pair], right[pair], last));
+    regions.pairs.push_back({left[pair] - 1, right[pair] - 1});
+  }
+  return regions;
+}
+
 /// The names and other things that are there for readers of the file.
 record::Origin origin_of(const io::Metadata& metadata) {
   record::Origin origin;
   origin.part_names = io::column_of<std::string>(metadata, "tags", "part_name");
   origin.part_markers = io::column_of<std::int32_t>(metadata, "tags", "part_marker");
-  const auto& regions = io::column_of<std::string>(metadata, "tags", "region_name");
-  origin.region = regions.empty() ? "" : regions[0];
+  origin.regions = regions_of(metadata);
   origin.period = {io::attribute_of<double>(metadata, "period_x"), io::attribute_of<double>(metadata, "period_y")};
   origin.crs = io::attribute_of<std::string>(metadata, "crs");
   origin.curve_names = io::curve_names(metadata);
@@ -160,6 +176,13 @@ mesh::QualitySummary quality_of(const io::Metadata& metadata) {
         if (attribute.name == name && std::holds_alternative<std::int64_t>(attribute.value))
           *value = std::get<std::int64_t>(attribute.value);
   return quality;
+}
+
+formats::Names names_of(const record::Origin& origin) {
+  formats::Names names{origin.part_names, origin.regions.names, origin.curve_names, {}, origin.period, origin.crs};
+  for (std::size_t pair = 0; pair < origin.regions.pairs.size(); ++pair)
+    names.interfaces.push_back(origin.regions.pair_name(pair));
+  return names;
 }
 
 constexpr const char* how_to_replace = "set WriteOptions::overwrite to replace it, or choose another path";
@@ -255,8 +278,7 @@ void Mesh::write(const std::string& path, const WriteOptions& options) const {
                                   path));
   formats::refuse_to_replace(formats::paths_of(*format, path), options.overwrite, how_to_replace, comm);
   make_directory_of(file, comm);
-  formats::write(*format, path, result().mesh,
-                 {origin.part_names, {origin.region}, origin.curve_names, origin.period, origin.crs}, nullptr, comm);
+  formats::write(*format, path, result().mesh, names_of(origin), nullptr, comm);
 }
 
 Mesh make_mesh(MPI_Comm handle, const Shape& shape, const Size& size, const MeshOptions& options) {
@@ -272,9 +294,12 @@ Mesh make_mesh(MPI_Comm handle, const Shape& shape, const Size& size, const Mesh
   auto made = std::make_unique<Mesh::Implementation>();
   made->communicator = comm;
   made->result = meshing::Mesher(*comm, domain, *field, lower, log, timers).run();
-  made->origin = {
-      boundary.part_names,  domain.part_markers(), shape.text(), {boundary.periods.x, boundary.periods.y}, {},
-      domain.curves().names};
+  made->origin = {boundary.part_names,
+                  domain.part_markers(),
+                  record::named(domain.regions(), shape.text()),
+                  {boundary.periods.x, boundary.periods.y},
+                  {},
+                  domain.curves().names};
   made->metadata = record::describe(made->result, made->origin, text_of(size), *comm);
   return Mesh(std::move(made));
 }
@@ -286,10 +311,10 @@ Mesh make_mesh(MPI_Comm comm, const Shape& shape, const MeshOptions& options) {
 Mesh read_mesh(MPI_Comm handle, const std::string& path) {
   auto read = std::make_unique<Mesh::Implementation>();
   read->communicator = std::make_shared<const comm::Communicator>(comm::duplicate_of(handle));
-  read->metadata = io::read_metadata(
-      path,
-      {"history", "quality", "checks", "worst_triangles", "tags", "sharp_corners", "rings", "curves", "normalization"},
-      *read->communicator);
+  read->metadata = io::read_metadata(path,
+                                     {"history", "quality", "checks", "worst_triangles", "tags", "sharp_corners",
+                                      "rings", "curves", "interfaces", "regions", "normalization"},
+                                     *read->communicator);
   read->origin = origin_of(read->metadata);
   read->result.checks = record::checks_of(read->metadata);
   read->result.quality = quality_of(read->metadata);
