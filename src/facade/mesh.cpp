@@ -29,21 +29,41 @@
 
 namespace trime {
 
-std::int32_t number_of(const std::string& name, const std::vector<std::string>& names) {
+std::int32_t number_of(const std::string& name, const std::vector<std::string>& names, const char* kind) {
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end())
-    throw ConfigError(fmt::format("the mesh has no boundary '{}'{}; known: {}", name, suggestion(name, names),
+    throw ConfigError(fmt::format("the mesh has no {} '{}'{}; known: {}", kind, name, suggestion(name, names),
                                   fmt::join(names, ", ")));
   return static_cast<std::int32_t>(found - names.begin());
 }
 
 std::vector<Facet> LocalMesh::facets(const std::string& name) const {
-  const std::int32_t part = number_of(name, names_);
+  const std::int32_t part = number_of(name, names_.facets);
   std::vector<Facet> found;
   for (std::size_t k = 0; k < arrays_.facets.size(); ++k)
     if (arrays_.facet_parts[k] == part)
       found.push_back({arrays_.facets[k][0], arrays_.facets[k][1], arrays_.facet_triangles[k], arrays_.facet_tags[k],
                        k < at(arrays_.owned_facets)});
+  return found;
+}
+
+std::vector<InnerEdge> LocalMesh::curve_edges(const std::string& name) const {
+  const std::int32_t curve = number_of(name, names_.curves, "curve");
+  std::vector<InnerEdge> found;
+  for (std::size_t k = 0; k < arrays_.curve_edges.size(); ++k)
+    if (arrays_.curve_numbers[k] == curve)
+      found.push_back({arrays_.curve_edges[k][0], arrays_.curve_edges[k][1], arrays_.curve_triangles[k][0],
+                       arrays_.curve_triangles[k][1], k < at(arrays_.owned_curve_edges)});
+  return found;
+}
+
+std::vector<InnerEdge> LocalMesh::interfaces(const std::string& name) const {
+  const std::int32_t pair = number_of(name, names_.interfaces, "interface");
+  std::vector<InnerEdge> found;
+  for (std::size_t k = 0; k < arrays_.interfaces.size(); ++k)
+    if (arrays_.interface_pairs[k] == pair)
+      found.push_back({arrays_.interfaces[k][0], arrays_.interfaces[k][1], arrays_.interface_triangles[k][0],
+                       arrays_.interface_triangles[k][1], k < at(arrays_.owned_interfaces)});
   return found;
 }
 
@@ -225,6 +245,10 @@ std::uint64_t Mesh::hash() const {
 const std::vector<std::string>& Mesh::facet_names() const {
   return implementation_->origin.part_names;
 }
+MeshNames Mesh::names() const {
+  const formats::Names names = names_of(implementation_->origin);
+  return {names.parts, names.regions, names.curves, names.interfaces};
+}
 const meshing::MeshResult& Mesh::result() const {
   return implementation_->result;
 }
@@ -244,8 +268,7 @@ std::vector<std::array<GlobalId, 2>> Mesh::facets(const std::string& name) const
 
 LocalMesh Mesh::local(handover::Overlap overlap) const {
   check_running();
-  return {handover::make_local_mesh(communicator(), result().mesh, overlap), facet_names(),
-          implementation_->communicator};
+  return {handover::make_local_mesh(communicator(), result().mesh, overlap), names(), implementation_->communicator};
 }
 
 void Mesh::write(const std::string& path, const WriteOptions& options) const {

@@ -47,7 +47,7 @@ struct Refined {
   std::vector<polygon::LoopSummary> loops; ///< the loops of its boundary, ordered by tag; `parts` are left empty
   BoundaryMiddles middles;
   mesh::Checks checks;            ///< checks of the arrays: triangles, edges, points, loops, interfaces and area
-  std::vector<RegionSum> regions; ///< of region 1, 2, ... up to the last one with a triangle
+  std::vector<RegionSum> regions; ///< sums of region 1, 2, ... up to the last one with a triangle
 };
 
 /// @brief Divides each triangle into four, and each boundary edge into two. The vertices of the mesh stay, bit for bit.
