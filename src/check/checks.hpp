@@ -12,6 +12,9 @@
 
 namespace trime_check {
 
+/// Cosine of the largest angle opposite to a chord, 90 degrees, with room for rounding.
+constexpr double least_cosine = -1e-11;
+
 /// One of the closed curves of the boundary of the mesh.
 struct Loop {
   std::vector<std::size_t> facets; ///< numbers of its facets, in the order along the loop
@@ -36,6 +39,11 @@ Counted check_surface(const StoredFile& file, const Mesh& mesh, Report& report);
 /// Checks the edges on curves inside the shape, if the file has any: each is an edge of two triangles, and no vertex
 /// lies in its diametral disc.
 void check_curves(const StoredFile& file, const Mesh& mesh, Report& report);
+
+/// Checks the regions of triangles and the interfaces between them, if the file has more than one region: the edges
+/// between regions are listed once each, with the lower region on the left, and border areas that are exactly those of
+/// the triangles. @pre the ids of the triangles are in range
+void check_regions(const StoredFile& file, const Mesh& mesh, Report& report);
 
 /// Checks the sizes of points and facets.
 void check_sizes(const StoredFile& file, const Mesh& mesh, Report& report);

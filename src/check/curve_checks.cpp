@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "checks.hpp"
 
-#include <algorithm>
 #include <map>
 
 namespace trime_check {
 namespace {
-
-/// Cosine of the largest angle opposite to a chord, 90 degrees, with room for rounding.
-constexpr double least_cosine = -1e-11;
 
 /// All that looks at the edges on curves.
 class CurveChecks {
@@ -29,7 +25,7 @@ public:
         if (const auto found = triangles_.find(ascending({t[(k + 1) % 3], t[(k + 2) % 3]}));
             found != triangles_.end()) {
           ++found->second;
-          if (cosine_at(t, k) < least_cosine)
+          if (mesh_.cosine(t, k) < least_cosine)
             wide.note([&] { return place_of(mesh_, found->first); });
         }
     Tally no_edges;
@@ -42,8 +38,6 @@ public:
   }
 
 private:
-  static Facet ascending(const Facet& edge) { return {std::min(edge[0], edge[1]), std::max(edge[0], edge[1])}; }
-
   /// Returns false if the numbers are so wrong that nothing more can be checked.
   bool check_ranges() {
     const auto points = static_cast<std::int64_t>(mesh_.points.size());
@@ -62,12 +56,6 @@ private:
     report_.none("curve_labels", numbers,
                  "edges on curves whose curve has no name, or whose label is not that of the curve after all parts");
     return ids.count == 0;
-  }
-
-  double cosine_at(const Triangle& t, std::size_t k) const {
-    const auto corners = mesh_.corners(t);
-    const Point u = corners[(k + 1) % 3] - corners[k], v = corners[(k + 2) % 3] - corners[k];
-    return (u.x * v.x + u.y * v.y) / (std::hypot(u.x, u.y) * std::hypot(v.x, v.y));
   }
 
   const StoredFile& file_;

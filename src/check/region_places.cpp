@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "region_places.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <unordered_map>
+
+namespace trime_check {
+namespace {
+
+// [longer side of the container] Curves are computed in doubles, and what lies in them.
+constexpr double on_curve = 1e-9, box_slack = 1e-12;
+// [h] A triangle whose centroid is farther from all curves has no part beyond them.
+constexpr double beside_curve = 1;
+// [size of the mesh] The size asked for is not stored inside; it may be larger than that of the mesh by as much.
+constexpr double lowered = 2;
+// So many triangles are tested at most.
+constexpr std::size_t most_places = 1'000'000;
+
+/// The regions of a config: the first one that contains a place has it, and the rest has number 1.
+class RegionList {
+public:
+  /// @throws Failure (exit 2) if an expression names a part that does not exist
+  RegionList(const ConfigText& config, const Shape& shape) : shape_(shape) {
+    names.push_back(config.value("shape", "rest"));
+    if (names[0].empty())
+      names[0] = config.value("shape", "geometry");
+    for (const std::string& name : config.regions()) {
+      const std::string geometry = config.value("region." + name, "geometry");
+      names.push_back(name);
+      if (geometry.empty()) {
+        reason = fmt::format("region {} has no 'geometry'", name);
+        return;
+      }
+      regions_.emplace_back(geometry, shape.numbers);
+    }
+    for (std::size_t k = 0; k < shape.parts.size(); ++k)
+      for (std::size_t region = 0; region < regions_.size(); ++region)
+        if (regions_[region].uses(k)) {
+          regions_of_part_[k].push_back(region);
+          if (!shape.parts[k].curve)
+            reason = fmt::format("part {}: {}", shape.parts[k].name, shape.parts[k].reason);
+        }
+  }
+
+  /// Returns the number of the region at a place, from 1.
+  std::int64_t at(Point p) {
+    std::vector<std::size_t> around;
+    std::set<std::size_t> candidates; // a region that uses no part around the place does not contain it
+    for (const Point image : shape_.images(p))
+      for (const std::size_t part : shape_.finder->near(image, box_slack * shape_.side()))
+        if (const auto users = regions_of_part_.find(part);
+            users != regions_of_part_.end() && shape_.parts[part].curve->contains(image)) {
+          around.push_back(part);
+          candidates.insert(users->second.begin(), users->second.end());
+        }
+    for (const std::size_t region : candidates) {
+      for (const std::size_t part : around)
+        regions_[region].set(part, true);
+      const bool inside = regions_[region].contains();
+      for (const std::size_t part : around)
+        regions_[region].set(part, false);
+      if (inside)
+        return static_cast<std::int64_t>(region) + 2;
+    }
+    return 1;
+  }
+
+  /// Returns the distance from the nearest curve that a region uses if it is at most `limit`, otherwise a larger
+  /// number.
+  double distance(Point p, double limit) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Point image : shape_.images(p))
+      for (const std::size_t part : shape_.finder->near(image, limit))
+        if (regions_of_part_.contains(part))
+          least = std::min(least, shape_.parts[part].curve->distance(image) - shape_.parts[part].bend);
+    return least;
+  }
+
+  std::vector<std::string> names; ///< of the regions 1, 2, ...
+  std::string reason;             ///< why regions cannot be compared; empty: they can
+
+private:
+  const Shape& shape_;
+  std::vector<Region> regions_;
+  std::unordered_map<std::size_t, std::vector<std::size_t>> regions_of_part_;
+};
+
+class RegionPlaces {
+public:
+  RegionPlaces(const StoredFile& file, const Mesh& mesh, const ConfigText& config, const Shape& shape,
+               double simplified, Report& report)
+      : file_(file), mesh_(mesh), config_(config), shape_(shape), report_(report), list_(config, shape),
+        refined_(std::exp2(file.number("/trime_mpi", "refinements").value_or(0))) {
+    const std::optional<double> within = config.number("meshing", "simplify_within");
+    strict_ = config.is_true("meshing", "keep_features") || (within && *within == 0);
+    simplified_ = strict_ ? 0 : simplified;
+  }
+
+  void run() {
+    check_names();
+    check_rest();
+    if (!list_.reason.empty()) {
+      report_.skip("region_places", list_.reason);
+      report_.skip("interface_places", list_.reason);
+      return;
+    }
+    check_triangles();
+    check_interfaces();
+  }
+
+private:
+  void check_names() {
+    const std::vector<std::string> found = file_.names("/trime_mpi/tags/region_name");
+    const auto text = [](const std::vector<std::string>& names) {
+      constexpr std::size_t most = 5;
+      std::string joined;
+      for (std::size_t k = 0; k < std::min(names.size(), most); ++k)
+        joined += (k > 0 ? ", " : "") + names[k];
+      return names.size() > most ? fmt::format("{}, and {} more", joined, names.size() - most) : joined;
+    };
+    report_.add("region_list", found == list_.names, text(list_.names), text(found),
+                "names of the regions: the rest, then the sections of the config in their order");
+  }
+
+  void check_rest() {
+    if (config_.value("shape", "cover") != "all")
+      return;
+    Tally rest;
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
+      if (mesh_.region[t] == 1)
+        rest.note([&] { return place_of(mesh_, t); });
+    report_.none("region_rest", rest, "triangles in no region of the config, which says `cover = all`");
+  }
+
+  double size_at(std::int64_t id) const { return mesh_.size[static_cast<std::size_t>(id)] * refined_; }
+
+  void check_triangles() {
+    Tally wrong;
+    std::int64_t tested = 0;
+    const std::size_t step = mesh_.triangles.size() / most_places + 1;
+    const double in_h = std::max(beside_curve, 2 * lowered * simplified_);
+    for (std::size_t t = 0; t < mesh_.triangles.size(); t += step) {
+      const auto [a, b, c] = mesh_.corners(mesh_.triangles[t]);
+      const auto [i, j, k] = mesh_.triangles[t];
+      const Point centroid{(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3};
+      const double limit = in_h * std::max({size_at(i), size_at(j), size_at(k)});
+      if (list_.distance(centroid, limit) <= limit)
+        continue;
+      ++tested;
+      if (const std::int64_t expected = list_.at(centroid); expected != mesh_.region[t])
+        wrong.note(
+            [&] { return fmt::format("{}: expected {}, found {}", place_of(mesh_, t), expected, mesh_.region[t]); });
+    }
+    if (tested == 0)
+      report_.skip("region_places", "all triangles are near the curve of a part");
+    else
+      report_.none("region_places", wrong,
+                   fmt::format("triangles that are not in the first region of the config that contains their centroid; "
+                               "{} were tested",
+                               tested));
+  }
+
+  void check_interfaces() {
+    Tally off;
+    std::set<std::int64_t> ends;
+    for (const Facet& edge : mesh_.interfaces)
+      ends.insert(edge.begin(), edge.end());
+    double largest = 0;
+    for (const std::int64_t id : ends) {
+      const double limit = on_curve * shape_.side() + lowered * simplified_ * size_at(id);
+      const double away = std::max(0.0, list_.distance(mesh_.at(id), limit));
+      if (away > limit)
+        off.note([&] { return fmt::format("point {} at {}", id, place_of(mesh_.at(id))); });
+      else
+        largest = std::max(largest, away);
+    }
+    report_.none("interface_places", off,
+                 fmt::format("points of interfaces that do not lie on the curve of a part{}; {} were tested, and the "
+                             "largest distance of the others is {:.3g}",
+                             strict_ ? "" : ", which may have been simplified", ends.size(), largest));
+  }
+
+  const StoredFile& file_;
+  const Mesh& mesh_;
+  const ConfigText& config_;
+  const Shape& shape_;
+  Report& report_;
+  RegionList list_;
+  double refined_;
+  bool strict_ = false;   // nothing was simplified
+  double simplified_ = 0; // [h asked for]
+};
+
+} // namespace
+
+void check_region_places(const StoredFile& file, const Mesh& mesh, const ConfigText& config, const Shape& shape,
+                         double simplified, Report& report) {
+  if (!config.regions().empty() || file.names("/trime_mpi/tags/region_name").size() > 1)
+    RegionPlaces(file, mesh, config, shape, simplified, report).run();
+}
+
+} // namespace trime_check
