@@ -13,7 +13,7 @@ namespace {
 constexpr double on_curve = 1e-9, box_slack = 1e-12;
 // [h] A triangle whose centroid is farther from all curves has no part beyond them.
 constexpr double beside_curve = 1;
-// [size of the mesh] The size asked for is not stored inside; it may be larger than that of the mesh by as much.
+// [size of the mesh] The size asked for is not stored inside. Unless it is uniform, it may be larger by as much.
 constexpr double lowered = 2;
 // So many triangles are tested at most.
 constexpr std::size_t most_places = 1'000'000;
@@ -96,6 +96,8 @@ public:
     const std::optional<double> within = config.number("meshing", "simplify_within");
     strict_ = config.is_true("meshing", "keep_features") || (within && *within == 0);
     simplified_ = strict_ ? 0 : simplified;
+    if (config.value("sizing", "type") == "uniform" && config.value("sizing", "size_at").empty())
+      uniform_ = std::ranges::max(mesh.size);
   }
 
   void run() {
@@ -134,13 +136,16 @@ private:
     report_.none("region_rest", rest, "triangles in no region of the config, which says `cover = all`");
   }
 
-  double size_at(std::int64_t id) const { return mesh_.size[static_cast<std::size_t>(id)] * refined_; }
+  /// Returns the size asked for at a point, or that of the mesh, which may be lower.
+  double size_at(std::int64_t id) const {
+    return refined_ * (uniform_ > 0 ? uniform_ : mesh_.size[static_cast<std::size_t>(id)]);
+  }
 
   void check_triangles() {
     Tally wrong;
     std::int64_t tested = 0;
     const std::size_t step = mesh_.triangles.size() / most_places + 1;
-    const double in_h = std::max(beside_curve, 2 * lowered * simplified_);
+    const double in_h = std::max(beside_curve, 2 * simplified_);
     for (std::size_t t = 0; t < mesh_.triangles.size(); t += step) {
       const auto [a, b, c] = mesh_.corners(mesh_.triangles[t]);
       const auto [i, j, k] = mesh_.triangles[t];
@@ -169,7 +174,7 @@ private:
       ends.insert(edge.begin(), edge.end());
     double largest = 0;
     for (const std::int64_t id : ends) {
-      const double limit = on_curve * shape_.side() + lowered * simplified_ * size_at(id);
+      const double limit = on_curve * shape_.side() + (uniform_ > 0 ? 1 : lowered) * simplified_ * size_at(id);
       const double away = std::max(0.0, list_.distance(mesh_.at(id), limit));
       if (away > limit)
         off.note([&] { return fmt::format("point {} at {}", id, place_of(mesh_.at(id))); });
@@ -191,6 +196,7 @@ private:
   double refined_;
   bool strict_ = false;   // nothing was simplified
   double simplified_ = 0; // [h asked for]
+  double uniform_ = 0;    // the size asked for if it is the same everywhere, otherwise 0
 };
 
 } // namespace
