@@ -87,6 +87,19 @@ const Option table[] = {
          "the shape, made of named parts: a name, `domain` for the container itself, or `union`, `intersection` or "
          "`difference` of two or more of these, which may be nested, such as `difference(spade, union(hole, slot))`"},
     {.section = "shape",
+     .key = "rest",
+     .kind = OptionKind::text,
+     .fallback = "geometry",
+     .choices = "geometry",
+     .meaning = "name of the part of the shape that lies in no [region.NAME]; `geometry`: the text of that key"},
+    {.section = "shape",
+     .key = "cover",
+     .kind = OptionKind::word,
+     .fallback = "rest",
+     .choices = "rest all",
+     .meaning = "`all`: the regions must cover the whole shape, and a place in none of them is an error; `rest`: such "
+                "places belong to a region of their own"},
+    {.section = "shape",
      .key = "projection",
      .kind = OptionKind::text,
      .fallback = "none",
@@ -153,6 +166,16 @@ const Option table[] = {
      .part_type = "expression",
      .kind = OptionKind::text,
      .meaning = "signed distance as a formula of x and y, negative inside, such as `sqrt((x-0.5)^2+(y-0.5)^2)-0.3`"},
+
+    {.section = "region.NAME",
+     .key = "geometry",
+     .kind = OptionKind::text,
+     .fallback = "NAME",
+     .choices = "NAME",
+     .meaning =
+         "the region NAME of the shape, such as a material, as an expression over the same parts as `geometry` in "
+         "[shape]; without this key, the part with the name of the region. The first region that contains a "
+         "place has it"},
 
     {.section = "curve.NAME",
      .key = "file",
@@ -479,7 +502,10 @@ std::span<const Option> option_table() {
 }
 
 std::string_view table_section(std::string_view section) {
-  return section.starts_with("shape.") ? part_section : section.starts_with("curve.") ? curve_section : section;
+  return section.starts_with("shape.")    ? part_section
+         : section.starts_with("region.") ? region_section
+         : section.starts_with("curve.")  ? curve_section
+                                          : section;
 }
 
 const Option* find_option(std::string_view section, std::string_view key) {

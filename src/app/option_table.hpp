@@ -21,7 +21,7 @@ struct Range {
 
 /// One key of a config. A list of words is separated by blanks.
 struct Option {
-  const char* section; ///< section of the key; "shape.NAME" for keys of parts, "curve.NAME" for those of curves
+  const char* section; ///< section of the key; "shape.NAME" for keys of parts, likewise for regions and curves
   const char* key;
   const char* part_type = ""; ///< for keys of parts: the type of part that has the key; empty: all types
   OptionKind kind = OptionKind::number;
@@ -36,16 +36,18 @@ struct Option {
 inline constexpr double largest_coordinate = 1e30;
 
 inline constexpr std::string_view part_section = "shape.NAME";
+inline constexpr std::string_view region_section = "region.NAME";
 inline constexpr std::string_view curve_section = "curve.NAME";
 
 std::span<const Option> option_table();
 
-/// Returns the section in the table: "shape.NAME" for "shape.hole", "curve.NAME" for "curve.fault", otherwise the
+/// Returns the section in the table: "shape.NAME" for "shape.hole", likewise for regions and curves, otherwise the
 /// section itself.
 std::string_view table_section(std::string_view section);
 /// Returns the option with this section and key; null if there is no such key.
 const Option* find_option(std::string_view section, std::string_view key);
-/// Returns the names of all sections ("shape.NAME" and "curve.NAME" are among them), in the order of the table.
+/// Returns the names of all sections ("shape.NAME", "region.NAME" and "curve.NAME" are among them), in the order of the
+/// table.
 std::vector<std::string> section_names();
 /// Returns the keys of one section of the table.
 std::vector<std::string> key_names(std::string_view section);

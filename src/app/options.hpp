@@ -37,6 +37,12 @@ struct PartOptions {
   std::string sdf; ///< formula of x and y
 };
 
+/// One section [region.NAME] of a config.
+struct RegionOptions {
+  std::string name;
+  std::string geometry; ///< the expression that joins the parts of the region
+};
+
 /// One section [curve.NAME] of a config.
 struct CurveOptions {
   std::string name;
@@ -74,8 +80,11 @@ struct CheckpointOptions {
 
 struct RunOptions {
   std::vector<PartOptions> parts;
-  std::vector<CurveOptions> curves; ///< curves inside the shape
-  std::string geometry;             ///< the expression that joins the parts of the shape
+  std::vector<RegionOptions> regions; ///< in the order of their sections
+  std::string rest;                   ///< name of what lies in no region
+  bool regions_cover_all = false;     ///< whether a place in no region is an error
+  std::vector<CurveOptions> curves;   ///< curves inside the shape
+  std::string geometry;               ///< the expression that joins the parts of the shape
   std::string projection; ///< projection of contours: empty for none, `auto`, or a reference system that PROJ knows
   bool periodic_x = false, periodic_y = false; ///< whether opposite sides of the container are joined
   geometry::Box container = geometry::unit_square;

@@ -12,7 +12,6 @@
 namespace trime::app {
 namespace {
 
-constexpr std::string_view part_prefix = "shape.", curve_prefix = "curve.";
 constexpr int most_misspelt = 100; // names for which the nearest known one is sought: more than Diagnostics::text shows
 const std::vector<std::string> reserved_names{"domain", "union", "intersection", "difference"};
 
@@ -48,26 +47,31 @@ Settings::Settings(const IniDocument& document, Diagnostics& problems) {
       check_entry(entry, problems);
     else if (++misspelt_ <= most_misspelt)
       meant_.insert({nearest_name(entry.section, section_names()), entry.key});
-  for (const std::string& part : parts_)
-    check_part(std::string(part_prefix) + part, problems);
-  for (const std::string& curve : curves_)
-    check_curve(std::string(curve_prefix) + curve, problems);
+  for (const std::string& part : parts())
+    check_part("shape." + part, problems);
+  for (const std::string& curve : curves())
+    check_curve("curve." + curve, problems);
+}
+
+/// The kind of named section to which a section belongs; null if it belongs to none.
+const Settings::NamedSections* Settings::named(std::string_view section) const {
+  for (const NamedSections& kind : named_)
+    if (section.starts_with(kind.prefix))
+      return &kind;
+  return nullptr;
 }
 
 bool Settings::is_known_section(const std::string& section) const {
-  if (section.starts_with(part_prefix))
-    return part_names_.contains(section.substr(part_prefix.size()));
-  if (section.starts_with(curve_prefix))
-    return curve_names_.contains(section.substr(curve_prefix.size()));
+  if (const NamedSections* kind = named(section))
+    return section != kind->section && kind->known.contains(section.substr(kind->prefix.size()));
   static const std::vector<std::string> known = section_names();
-  return section != part_section && section != curve_section &&
-         std::find(known.begin(), known.end(), section) != known.end();
+  return std::find(known.begin(), known.end(), section) != known.end();
 }
 
 void Settings::check_sections(const IniDocument& document, Diagnostics& problems) {
   for (const IniSection& section : document.sections) {
     section_lines_.emplace(section.name, section.line);
-    if (!section.name.starts_with(part_prefix) && !section.name.starts_with(curve_prefix)) {
+    if (named(section.name) == nullptr) {
       if (!is_known_section(section.name))
         problems.add(section.line,
                      fmt::format("unknown section [{}]{}", shown(section.name),
@@ -78,23 +82,25 @@ void Settings::check_sections(const IniDocument& document, Diagnostics& problems
   }
 }
 
-/// The name of a part or a curve.
+/// The name of a part, a region or a curve.
 void Settings::check_name(const IniSection& section, Diagnostics& problems) {
-  const bool is_curve = section.name.starts_with(curve_prefix);
-  const std::string name = section.name.substr((is_curve ? curve_prefix : part_prefix).size());
-  const char* what = is_curve ? "curve" : "part";
+  NamedSections& kind = named_[static_cast<std::size_t>(named(section.name) - named_.data())];
+  const std::string name = section.name.substr(kind.prefix.size());
+  const auto is_other = [&](std::size_t other) {
+    return &kind != &named_[other] && named_[other].known.contains(name);
+  };
   if (std::find(reserved_names.begin(), reserved_names.end(), name) != reserved_names.end())
     problems.add(section.line,
                  fmt::format("'{}' cannot name a {}, because 'geometry' uses this word; choose another name",
-                             shown(name), what));
+                             shown(name), kind.what));
   else if (!is_part_name(name))
-    problems.add(
-        section.line,
-        fmt::format("'{}' cannot name a {}: use letters, digits and '_', and begin with a letter", shown(name), what));
-  else if ((is_curve ? part_names_ : curve_names_).contains(name))
+    problems.add(section.line,
+                 fmt::format("'{}' cannot name a {}: use letters, digits and '_', and begin with a letter", shown(name),
+                             kind.what));
+  else if (&kind != &named_[regions_at] && (is_other(parts_at) || is_other(curves_at)))
     problems.add(section.line, fmt::format("'{}' names a part and a curve: expected different names", shown(name)));
-  else if ((is_curve ? curve_names_ : part_names_).insert(name).second)
-    (is_curve ? curves_ : parts_).push_back(name);
+  else if (kind.known.insert(name).second)
+    kind.names.push_back(name);
 }
 
 void Settings::check_curve(const std::string& section, Diagnostics& problems) {
@@ -217,7 +223,7 @@ std::string Settings::resolved(const std::string& directory) const {
   std::string result;
   const auto section_text = [&](const std::string& section) {
     result += fmt::format("{}[{}]\n", result.empty() ? "" : "\n", section);
-    const std::string type = section.starts_with(part_prefix) ? text(section, "type") : "";
+    const std::string type = section.starts_with(named_[parts_at].prefix) ? text(section, "type") : "";
     for (const Option& option : option_table()) {
       if (option.section != table_section(section) || (*option.part_type != '\0' && option.part_type != type))
         continue;
@@ -231,14 +237,12 @@ std::string Settings::resolved(const std::string& directory) const {
     }
   };
   for (const std::string& section : section_names()) {
-    if (section == part_section)
-      for (const std::string& part : parts_)
-        section_text(std::string(part_prefix) + part);
-    else if (section == curve_section)
-      for (const std::string& curve : curves_)
-        section_text(std::string(curve_prefix) + curve);
-    else
+    const NamedSections* kind = named(section);
+    if (kind == nullptr)
       section_text(section);
+    else
+      for (const std::string& name : kind->names)
+        section_text(std::string(kind->prefix) + name);
   }
   return result;
 }

@@ -7,10 +7,13 @@
 #include "app/option_table.hpp"
 #include "trime/geometry/vec2.hpp"
 
+#include <array>
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace trime::app {
@@ -23,9 +26,11 @@ public:
   Settings(const IniDocument& document, Diagnostics& problems);
 
   /// Returns the names of the sections [shape.NAME] in the order of the file.
-  const std::vector<std::string>& parts() const { return parts_; }
+  const std::vector<std::string>& parts() const { return named_[parts_at].names; }
+  /// Returns the names of the sections [region.NAME] in the order of the file.
+  const std::vector<std::string>& regions() const { return named_[regions_at].names; }
   /// Returns the names of the sections [curve.NAME] in the order of the file.
-  const std::vector<std::string>& curves() const { return curves_; }
+  const std::vector<std::string>& curves() const { return named_[curves_at].names; }
   /// Returns the line of the section in the file.
   int section_line(const std::string& section) const;
 
@@ -55,6 +60,16 @@ public:
   std::string resolved(const std::string& directory) const;
 
 private:
+  /// The sections PREFIX.NAME.
+  struct NamedSections {
+    std::string_view prefix, section; ///< "shape." and its section in the table
+    const char* what;                 ///< what such a name belongs to, for messages
+    std::vector<std::string> names{};
+    std::set<std::string> known{}; ///< the names, for searching
+  };
+  static constexpr std::size_t parts_at = 0, regions_at = 1, curves_at = 2;
+
+  const NamedSections* named(std::string_view section) const;
   void check_sections(const IniDocument& document, Diagnostics& problems);
   void check_entry(const IniEntry& entry, Diagnostics& problems);
   void check_part(const std::string& section, Diagnostics& problems);
@@ -65,8 +80,8 @@ private:
 
   std::map<std::string, int> section_lines_; ///< line in which each section begins first
   std::map<IniKey, int> lines_;              ///< line of each entry of the document
-  std::vector<std::string> parts_, curves_;
-  std::set<std::string> part_names_, curve_names_;   ///< the elements of parts_ and curves_, for searching
+  std::array<NamedSections, 3> named_{
+      {{"shape.", part_section, "part"}, {"region.", region_section, "region"}, {"curve.", curve_section, "curve"}}};
   std::map<IniKey, std::string> good_;               ///< all allowed values that the user has set
   std::map<std::string, std::vector<IniEntry>> own_; ///< all allowed values by section, in the order of the file
   std::set<IniKey> meant_;                           ///< known keys that are most similar to misspelt sections and keys

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <span>
 
 namespace trime::app {
@@ -40,13 +41,20 @@ shape::Region region_of(const RunOptions& options) {
 /// Returns the options without the parts that nothing depends on, which may lie anywhere: the config has warned of
 /// them. @throws ConfigError if the region cannot be parsed
 RunOptions with_used_parts(const RunOptions& options) {
-  const std::vector<int> found = region_of(options).parts();
+  std::vector<std::string> names;
+  for (const PartOptions& part : options.parts)
+    names.push_back(part.name);
+  const std::vector<int> in_shape = region_of(options).parts();
+  std::set<int> found(in_shape.begin(), in_shape.end());
+  for (const RegionOptions& region : options.regions)
+    for (const int part : shape::Region::parse(region.geometry, names).parts())
+      found.insert(part);
   RunOptions used = options;
   used.parts.clear();
   for (int k = 0; k < static_cast<int>(options.parts.size()); ++k) {
     const PartOptions& part = options.parts[static_cast<std::size_t>(k)];
     const auto follows = [&](const CurveOptions& curve) { return curve.normalize_with == part.name; };
-    if (std::binary_search(found.begin(), found.end(), k) || part.name == options.fixed_points.normalize_with ||
+    if (found.contains(k) || part.name == options.fixed_points.normalize_with ||
         std::any_of(options.curves.begin(), options.curves.end(), follows) || part.name == shape::domain_name)
       used.parts.push_back(part);
   }
@@ -158,7 +166,7 @@ shape::Part build_part(const PartOptions& part, const contours::Contour& contour
 
 /// The curves NAME, or NAME.VALUE for each value of an attribute, in the order of their first lines.
 void add_lines(const CurveOptions& options, const contours::Contour& contour, const contours::Normalization& place,
-               const geometry::Frame& frame, shape::CurveParts& parts) {
+               const geometry::Frame& frame, shape::InnerParts& parts) {
   std::map<int, std::size_t> number_of; // by marker
   std::vector<std::string> names;
   std::vector<std::vector<shape::CurveLine>> lines;
@@ -195,7 +203,8 @@ void tell_of(const geometry::InnerCurves& curves, Log& log) {
   std::vector<char> is_inside(curves.names.size(), 0);
   for (const geometry::InnerArc& arc : curves.arcs)
     for (const geometry::Piece& piece : arc.pieces)
-      is_inside[static_cast<std::size_t>(piece.part)] = 1;
+      if (piece.part >= 0)
+        is_inside[static_cast<std::size_t>(piece.part)] = 1;
   for (std::size_t k = 0; k < curves.on_boundary.size(); ++k) {
     if (curves.outside[k] > 0)
       log.summary("curve '{}': a length of {:.6g} lies outside of the shape and is left out", curves.names[k],
@@ -209,6 +218,29 @@ void tell_of(const geometry::InnerCurves& curves, Log& log) {
       log.warning("curve '{}' has no edges: no part of it lies inside the shape and away from other curves",
                   curves.names[k]);
   }
+}
+
+/// Says what regions share, what of them lies outside, and how large they are.
+void tell_of(const geometry::Regions& regions, Log& log) {
+  if (!regions.any())
+    return;
+  for (const geometry::RegionOverlap& overlap : regions.overlaps)
+    log.warning(
+        "the regions '{}' and '{}' share an area of {:.6g}, for example at {}; it belongs to '{}', whose section "
+        "comes first",
+        regions.names[static_cast<std::size_t>(overlap.first)], regions.names[static_cast<std::size_t>(overlap.second)],
+        overlap.area, Place(overlap.place, 6), regions.names[static_cast<std::size_t>(overlap.first)]);
+  for (std::size_t k = 1; k < regions.names.size(); ++k)
+    if (regions.outside[k] > 0)
+      log.summary("region '{}': an area of {:.6g} lies outside of the shape and is left out", regions.names[k],
+                  regions.outside[k]);
+}
+
+shape::Division division_of(const RunOptions& options) {
+  shape::Division division{{}, options.rest, options.regions_cover_all};
+  for (const RegionOptions& region : options.regions)
+    division.regions.push_back({region.name, region.geometry});
+  return division;
 }
 
 void tell_of(const shape::Part& part, Log& log) {
@@ -260,14 +292,14 @@ public:
   void add_curve(const CurveOptions& curve, const contours::Contour& contour) {
     const contours::Normalization place =
         curve.normalize_with.empty() ? contours::Normalization{} : places.at(curve.normalize_with);
-    add_lines(curve, contour, place, frame_, curves);
+    add_lines(curve, contour, place, frame_, inner);
     tell_of_file(contour, log_);
     if (keeps_places_)
       found.add(contour, place);
   }
 
   std::vector<shape::Part> parts;
-  shape::CurveParts curves;
+  shape::InnerParts inner;
   std::map<std::string, contours::Normalization> places; // by name of the part
   std::vector<NormalizedPart> normalized;
   UserPlaces found;
@@ -296,16 +328,18 @@ ShapeInput read_shape(const RunOptions& given, ShapeUse use, const comm::Communi
     made.add_part(k, contours[k]);
   for (std::size_t k = 0; k < options.curves.size(); ++k)
     made.add_curve(options.curves[k], contours[options.parts.size() + k]);
+  made.inner.division = division_of(options);
   if (!map.crs.empty())
     made.found.set_on_earth([map](geometry::Vec2 place) { return on_earth(map, place); });
   places = std::move(made.found);
   ShapeInput input{
       {}, {}, made.places[options.fixed_points.normalize_with], std::move(made.normalized), std::move(map)};
   if (use == ShapeUse::queries)
-    input.shape.emplace(std::move(made.parts), options.geometry, frame, made.curves);
+    input.shape.emplace(std::move(made.parts), options.geometry, frame, made.inner);
   else
-    input.alone.emplace(shape::domain_of(std::move(made.parts), options.geometry, frame, made.curves));
+    input.alone.emplace(shape::domain_of(std::move(made.parts), options.geometry, frame, made.inner));
   tell_of(input.domain().curves(), log);
+  tell_of(input.domain().regions(), log);
   return input;
 }
 

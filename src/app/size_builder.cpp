@@ -108,6 +108,8 @@ std::string advice_on_names(const RunOptions& options) {
 void check_names(const RunOptions& options, const geometry::Domain& domain) {
   std::vector<std::string> names = domain.boundary().part_names;
   names.insert(names.end(), domain.curves().names.begin(), domain.curves().names.end());
+  for (std::size_t pair = 0; pair < domain.regions().pairs.size(); ++pair)
+    names.push_back(domain.regions().pair_name(pair));
   try {
     for (const sizing::NamedSize& named : options.sizing.size_at)
       sizing::parts_named(named.name, names);

@@ -71,9 +71,13 @@ polygon::InnerChords BoundaryRefiner::inner_chords() const {
       const Site& site = sites_[k];
       if (site.vertex == k) // of several curves' ends the first one
         sites.emplace_back(site.position, site.kind != SiteKind::plain);
-      if (site.next >= 0)
+      if (site.next >= 0) {
+        const geometry::InnerArc& arc = curves_->arc(loop - boundary_loops_);
         inner.chords.push_back({{site.position, next(site).position},
-                                metrics_[loop].loop().pieces[at(metrics_[loop].place(site.t).piece)].part});
+                                metrics_[loop].loop().pieces[at(metrics_[loop].place(site.t).piece)].part,
+                                arc.left,
+                                arc.right});
+      }
       k = site.next;
     } while (k >= 0 && k != loop_first_[loop]);
   }

@@ -136,7 +136,8 @@ void FixedPoints::take_corners() {
     cornered_ = cornered->result();
 }
 
-void FixedPoints::hold(const geometry::InnerCurves& curves) {
+void FixedPoints::hold(const geometry::Domain& domain) {
+  const geometry::InnerCurves& curves = domain.curves();
   if (curves.empty())
     return;
   const geometry::Box box = given_boundary_.bounding_box();
@@ -157,9 +158,9 @@ void FixedPoints::hold(const geometry::InnerCurves& curves) {
         if (p == piece.start || p == piece.end)
           on_curves_.push_back(p);
         else if (piece.distance(p) <= tolerance_)
-          throw GeometryError(fmt::format("{}: the fixed point {} lies on the curve '{}', but is not a vertex of it; "
-                                          "make it a vertex of the curve instead",
-                                          label(p), Place(p, 12), curves.names[static_cast<std::size_t>(piece.part)]));
+          throw GeometryError(fmt::format("{}: the fixed point {} lies on the {}, but is not a vertex of it; "
+                                          "make it a vertex of the curve or of a part instead",
+                                          label(p), Place(p, 12), domain.line_name(piece.part, arc.left, arc.right)));
     }
   const geometry::PieceTree boundary(given_boundary_);
   for (const Vec2 p : nodes)

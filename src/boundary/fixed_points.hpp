@@ -45,7 +45,7 @@ public:
   /// @brief Lets the simplification of the boundary keep the curves inside the shape. Takes the points that are
   /// vertices of curves out of inside().
   /// @throws GeometryError if a point of inside() lies on a curve, but is not a vertex of it
-  void hold(const geometry::InnerCurves& curves);
+  void hold(const geometry::Domain& domain);
   /// Returns the given boundary with a corner at each fixed point that lies on it. If there is no such point, returns a
   /// reference to the given boundary itself.
   const geometry::Boundary& cornered_boundary() const { return cornered_ ? *cornered_ : given_boundary_; }

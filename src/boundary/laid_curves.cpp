@@ -39,7 +39,7 @@ Loop loop_of(const InnerArc& arc) {
 } // namespace
 
 LaidCurves::LaidCurves(const Boundary& boundary, const geometry::InnerCurves& inner, std::span<const Vec2> corners)
-    : boundary_(boundary) {
+    : boundary_(boundary), inner_(inner) {
   if (inner.empty())
     return;
   joined_.emplace(boundary);

@@ -11,7 +11,7 @@ namespace trime::boundary {
 
 /// @brief The boundary of a shape together with its inner curves, all of them as loops: first those of the boundary,
 /// then one for each arc. An open arc becomes a loop that leads there and back, see geometry::Loop::turning. Keeps a
-/// reference to the boundary if there are no inner curves; otherwise it holds a copy.
+/// reference to the curves inside, and to the boundary if there are no curves inside; otherwise it holds a copy of it.
 class LaidCurves {
 public:
   /// @param corners vertices of the inner curves that the mesh keeps, in lexicographic order
@@ -24,9 +24,12 @@ public:
   const geometry::Boundary& all() const { return joined_ ? *joined_ : boundary_; }
   /// Returns the number of loops of the boundary, which come first.
   std::size_t boundary_loops() const { return boundary_.loops.size(); }
+  /// Returns an arc inside.
+  const geometry::InnerArc& arc(std::size_t number) const { return inner_.arcs[number]; }
 
 private:
   const geometry::Boundary& boundary_;
+  const geometry::InnerCurves& inner_;
   std::optional<geometry::Boundary> joined_;
 };
 

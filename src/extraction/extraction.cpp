@@ -16,6 +16,7 @@ namespace {
 using geometry::Vec2;
 using mesh::DistributedMesh;
 using polygon::BoundarySite;
+using polygon::centroid;
 using sites::Fan;
 using sites::FlatFan;
 using sites::inside_fan;
@@ -29,8 +30,9 @@ struct Offsets {
 /// Lists triangles and facets at that of their vertices which has the lowest global id.
 class Extractor {
 public:
-  Extractor(const StageView& view, const decomposition::Numbering& numbering, const sizing::SizeField& asked)
-      : view_(view), numbering_(numbering), asked_(asked), points_(view.state.points()) {}
+  Extractor(const StageView& view, const decomposition::Numbering& numbering, const sizing::SizeField& asked,
+            const polygon::RegionFinder& regions)
+      : view_(view), numbering_(numbering), asked_(asked), regions_(regions), points_(view.state.points()) {}
 
   Extraction run() {
     Extraction made;
@@ -40,13 +42,15 @@ public:
       fill_points(made.mesh);
       const std::vector<Offsets> begin = offsets();
       make_room(begin.back(), made.mesh);
+      if (regions_.any())
+        made.mesh.region.resize(begin.back().triangles);
       PerThread<FlatFan> fans(view_, numbering_);
       thread_loop(tiles(), 1, [&](std::ptrdiff_t t, int thread) {
         fill_tile(first_tile() + static_cast<LocalIndex>(t), begin[static_cast<std::size_t>(t)], fans[thread],
                   meters[thread], made.mesh);
       });
       if (!view_.polygon.inner.empty())
-        list_curve_edges(fans[0], made.mesh);
+        list_inner_edges(fans[0], made.mesh);
     });
     auto meter = meters.begin();
     QualitySums& sums = (*meter).sums();
@@ -140,9 +144,12 @@ private:
   }
 
   /// By the second vertex; a fan has few triangles.
-  static void list_triangles(LocalIndex vertex, Vec2 position, FlatFan& fan, QualityMeter& meter, Offsets& next,
-                             DistributedMesh& mesh) {
+  void list_triangles(LocalIndex vertex, Vec2 position, FlatFan& fan, QualityMeter& meter, Offsets& next,
+                      DistributedMesh& mesh) const {
     for (const std::uint32_t k : fan.triangles_above(vertex)) {
+      if (regions_.any())
+        mesh.region[next.triangles] =
+            1 + regions_.at(centroid(position, fan.positions[k], fan.positions[k + 1], view_.lattice));
       mesh.triangles[next.triangles++] = {vertex, fan.vertices[k], fan.vertices[k + 1]};
       meter.add_triangle(position, fan.positions[k], fan.positions[k + 1]);
     }
@@ -179,8 +186,8 @@ private:
            std::binary_search(view_.fixed.begin(), view_.fixed.end(), p, geometry::lexicographically_less);
   }
 
-  /// Lists the edges on curves at their lower ends, by the place of the higher one.
-  void list_curve_edges(FlatFan& fan, DistributedMesh& mesh) const {
+  /// Lists the edges on curves and interfaces at their lower ends, by the place of the higher one.
+  void list_inner_edges(FlatFan& fan, DistributedMesh& mesh) const {
     const polygon::InnerChords& inner = view_.polygon.inner;
     for (LocalIndex vertex = 0; vertex < static_cast<LocalIndex>(numbering_.order.size()); ++vertex) {
       const LocalIndex site = numbering_.order[at(vertex)];
@@ -198,15 +205,29 @@ private:
       std::sort(found.begin(), found.end());
       for (const auto& [place, other, half] : found) {
         const GlobalId own = numbering_.global_id(vertex), end = numbering_.global_id(other);
-        mesh.curve_edges.push_back(half % 2 == 0 ? std::array{own, end} : std::array{end, own});
-        mesh.curve_numbers.push_back(inner.chords[at(half / 2)].curve);
+        list_edge(half % 2 == 0 ? std::array{own, end} : std::array{end, own}, inner.chords[at(half / 2)], mesh);
       }
     }
+  }
+
+  void list_edge(const std::array<GlobalId, 2>& edge, const polygon::InnerChord& chord, DistributedMesh& mesh) const {
+    if (chord.curve >= 0) {
+      mesh.curve_edges.push_back(edge);
+      mesh.curve_numbers.push_back(chord.curve);
+    }
+    if (chord.left == chord.right)
+      return;
+    const bool lower_left = chord.left < chord.right;
+    mesh.interfaces.push_back(lower_left ? edge : std::array{edge[1], edge[0]});
+    mesh.interface_regions.push_back({1 + std::min(chord.left, chord.right), 1 + std::max(chord.left, chord.right)});
+    mesh.interface_pairs.push_back(regions_.regions().pair_of(chord.left, chord.right));
+    mesh.interface_curves.push_back(chord.curve);
   }
 
   const StageView& view_;
   const decomposition::Numbering& numbering_;
   const sizing::SizeField& asked_;
+  const polygon::RegionFinder& regions_;
   const mesh::BinnedPoints& points_;
 };
 
@@ -218,8 +239,12 @@ void place_among_all(const comm::Communicator& comm, DistributedMesh& mesh) {
   mesh.facet_slab.first = comm.exclusive_scan(facets);
   const std::int64_t curve_edges = std::ssize(mesh.curve_edges);
   mesh.curve_slab.first = comm.exclusive_scan(curve_edges);
-  std::array<std::int64_t, 4> sums{triangles, facets, static_cast<std::int64_t>(partial_hash(mesh)), curve_edges};
+  const std::int64_t interfaces = std::ssize(mesh.interfaces);
+  mesh.interface_slab.first = comm.exclusive_scan(interfaces);
+  std::array<std::int64_t, 5> sums{triangles, facets, static_cast<std::int64_t>(partial_hash(mesh)), curve_edges,
+                                   interfaces};
   comm.sum(sums);
+  mesh.interface_slab.total = sums[4];
   mesh.curve_slab.total = sums[3];
   mesh.triangle_slab.total = sums[0];
   mesh.facet_slab.total = sums[1];
@@ -247,8 +272,8 @@ mesh::Check shortest_edge_check(const mesh::QualitySummary& quality, double leas
 }
 
 Extraction extract_mesh(const StageView& view, const decomposition::Numbering& numbering,
-                        const sizing::SizeField& asked) {
-  Extraction made = Extractor(view, numbering, asked).run();
+                        const sizing::SizeField& asked, const polygon::RegionFinder& regions) {
+  Extraction made = Extractor(view, numbering, asked, regions).run();
   place_among_all(view.state.comm(), made.mesh);
   return made;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "decomposition/numbering.hpp"
+#include "polygon/region_finder.hpp"
 #include "sites/fan.hpp"
 #include "trime/mesh/distributed_mesh.hpp"
 #include "trime/mesh/quality.hpp"
@@ -18,8 +19,9 @@ struct Extraction {
 /// @pre the stars of all sites are certain, and bins and halo are up to date
 /// @throws GeometryError on all ranks together if the size at an edge is not positive and finite
 /// @param asked the size before it was lowered near the boundary; its values are stored for the facets
+/// @param regions of the polygon of the view
 Extraction extract_mesh(const sites::StageView& view, const decomposition::Numbering& numbering,
-                        const sizing::SizeField& asked);
+                        const sizing::SizeField& asked, const polygon::RegionFinder& regions);
 
 /// Checks that no triangle has an alpha above `most`, except next to corners below 60 degrees.
 mesh::Check worst_alpha_check(const mesh::QualitySummary& quality, double most);

@@ -296,10 +296,10 @@ void check_curves_inside(const LayoutContext& context, const Stage& laid) {
     if (laid.guard->inside(middle))
       continue;
     throw GeometryError(
-        fmt::format("curve '{}' leaves the meshed shape at {}, where the boundary is simplified: expected a curve "
+        fmt::format("the {} leaves the meshed shape at {}, where the boundary is simplified: expected a line "
                     "inside; use more points, or keep_features = true, or set meshing.components so that the part of "
                     "the shape with the curve is meshed",
-                    context.domain.curves().names[static_cast<std::size_t>(chord.curve)], Place(middle, 10)));
+                    context.domain.line_name(chord.curve, chord.left, chord.right), Place(middle, 10)));
   }
 }
 

@@ -99,6 +99,7 @@ private:
     const double whole = given.length();
     const bool is_whole = from.from == 0 && to.to == whole;
     piece.part = given.part;
+    piece.region = given.region;
     if (!is_true(first))
       return piece;
     if (is_whole) {
@@ -138,8 +139,10 @@ private:
       built.loop.pieces.push_back(piece_between(edges[k], edges[last]));
       if (mesh_.mark(edges[k]) >= 0)
         built.sources[map_.span_of(edges[k]).loop] += built.loop.pieces.back().length();
-      else if (built.loop.pieces.size() > 1)
-        built.loop.pieces.back().part = built.loop.pieces[built.loop.pieces.size() - 2].part;
+      else if (const std::size_t n = built.loop.pieces.size(); n > 1) {
+        built.loop.pieces[n - 1].part = built.loop.pieces[n - 2].part;
+        built.loop.pieces[n - 1].region = built.loop.pieces[n - 2].region;
+      }
       k = last + 1;
     }
     const Vec2 origin = built.loop.pieces.front().start;

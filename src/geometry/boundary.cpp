@@ -98,6 +98,18 @@ int Boundary::components() const {
   return outer + winding / 2 + (covers_torus ? 1 : 0);
 }
 
+int Regions::pair_of(int a, int b) const {
+  const std::array<int, 2> pair{std::min(a, b), std::max(a, b)};
+  const auto found = std::lower_bound(pairs.begin(), pairs.end(), pair);
+  return found != pairs.end() && *found == pair ? static_cast<int>(found - pairs.begin()) : -1;
+}
+
+std::string Domain::line_name(int curve, int left, int right) const {
+  if (curve >= 0)
+    return "curve '" + curves_.names[static_cast<std::size_t>(curve)] + "'";
+  return "interface '" + regions_.pair_name(static_cast<std::size_t>(regions_.pair_of(left, right))) + "'";
+}
+
 int Boundary::holes() const {
   return static_cast<int>(std::count_if(loops.begin(), loops.end(), [](const Loop& loop) { return !loop.outer; }));
 }

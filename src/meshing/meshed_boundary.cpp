@@ -8,7 +8,7 @@ namespace trime::meshing {
 
 MeshedBoundary::MeshedBoundary(const RunContext& run)
     : fixed_(run.given_boundary, run.domain.frame().container(), run.domain.fixed_points(), run.lattice, run.log) {
-  fixed_.hold(run.domain.curves());
+  fixed_.hold(run.domain);
   boundary::check_choice_of_component(run.given_boundary, run.options.features);
   fixed_.check_distances(run.options.shortest_edge.value_or(0));
 }

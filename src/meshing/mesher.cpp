@@ -4,6 +4,7 @@
 #include "boundary/changed_bodies.hpp"
 #include "boundary/feature_report.hpp"
 #include "certificate/certificate.hpp"
+#include "certificate/region_proof.hpp"
 #include "cleanup/rules.hpp"
 #include "comm/agree.hpp"
 #include "core/processors.hpp"
@@ -19,12 +20,14 @@
 #include "meshing/relaxation.hpp"
 #include "meshing/rules.hpp"
 #include "meshing/same_input.hpp"
+#include "polygon/region_finder.hpp"
 #include "start/point_scheme.hpp"
 #include "sweep/guard_treatment.hpp"
 #include "trime/core/timer.hpp"
 #include "trime/shape/traced_part.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -284,6 +287,7 @@ bool Run::raise_at_short_edges(int trial) {
 /// The arrays that are written, with their quality and the certificate.
 MeshResult Run::extract() {
   const sites::StageView view = stage_.view(run_.lattice, boundary_.fixed().all());
+  const polygon::RegionFinder regions(stage_.polygon, run_.domain.regions());
   MeshResult result;
   decomposition::Numbering numbering;
   {
@@ -292,7 +296,7 @@ MeshResult Run::extract() {
     run_.comm.counters().add(Counter::sites_extracted, numbering.owned());
     stage_.state->release_work_space();
     result.loops = boundary_.loops(stage_.polygon);
-    extraction::Extraction made = extraction::extract_mesh(view, numbering, stage_.asked_size());
+    extraction::Extraction made = extraction::extract_mesh(view, numbering, stage_.asked_size(), regions);
     result.quality = std::move(made.quality);
     result.mesh = std::move(made.mesh);
   }
@@ -303,6 +307,10 @@ MeshResult Run::extract() {
                                           stage_.simplified.coarseness, run_.options.features.within,
                                           boundary::changes_topology(features_), run_.options.features.corner_angle},
                                          result.mesh);
+    certificate::RegionProof proof = certificate::prove_regions(view, numbering, regions, result.mesh);
+    std::ranges::copy(proof.checks, std::back_inserter(result.checks));
+    for (std::size_t k = 0; k < proof.areas.size(); ++k)
+      result.regions.push_back({proof.triangles[k], proof.areas[k], run_.domain.regions().areas[k]});
   }
   result.checks.push_back(extraction::worst_alpha_check(result.quality, run_.options.worst_alpha));
   if (run_.fit.gradation || run_.relative_size.is_uniform()) // else the size may jump from point to point

@@ -6,6 +6,7 @@
 #include "decomposition/numbering.hpp"
 #include "extraction/extraction.hpp"
 #include "meshing/rules.hpp"
+#include "polygon/region_finder.hpp"
 #include "sites/fan.hpp"
 #include "sweep/star_certifier.hpp"
 #include "trime/core/error.hpp"
@@ -127,7 +128,8 @@ void Snapshots::take(const sites::Stage& stage) {
   const decomposition::Numbering numbering =
       decomposition::canonical_numbering(run_.comm, shown.points(), shown.halo());
   const sites::StageView view{shown, stage.polygon, *stage.size, run_.lattice, boundary_.fixed().all()};
-  const extraction::Extraction made = extraction::extract_mesh(view, numbering, stage.asked_size());
+  const extraction::Extraction made = extraction::extract_mesh(
+      view, numbering, stage.asked_size(), polygon::RegionFinder(stage.polygon, run_.domain.regions()));
   const std::vector<polygon::LoopSummary> loops = boundary_.loops(stage.polygon);
   observer_({triangulations_, run_.timers.total(), made.mesh, made.quality, loops});
 }

@@ -120,18 +120,19 @@ ChordCurve compare(const Loop& loop, const BoundarySites& sites, LocalIndex k) {
   return result;
 }
 
-std::int32_t part_in_the_middle(const Loop& loop, const BoundarySite& a, const BoundarySite& b) {
+/// The piece of the loop at the middle of a chord.
+const geometry::Piece& piece_in_the_middle(const Loop& loop, const BoundarySite& a, const BoundarySite& b) {
   if (a.piece == b.piece && b.along > a.along)
-    return loop.pieces[static_cast<std::size_t>(a.piece)].part; // most chords span one piece
+    return loop.pieces[static_cast<std::size_t>(a.piece)]; // most chords span one piece
   double length = 0, before = 0;
   for_each_stretch(loop, a, b, [&](const Stretch& s) { length += s.to - s.from; });
-  std::int32_t part = loop.pieces[static_cast<std::size_t>(a.piece)].part;
+  const geometry::Piece* piece = &loop.pieces[static_cast<std::size_t>(a.piece)];
   for_each_stretch(loop, a, b, [&](const Stretch& s) {
     if (before < 0.5 * length)
-      part = s.piece.part;
+      piece = &s.piece;
     before += s.to - s.from;
   });
-  return part;
+  return *piece;
 }
 
 void assert_same_loops(const geometry::Boundary& boundary, const BoundarySites& sites) {
@@ -161,7 +162,10 @@ void name_parts(const geometry::Boundary& boundary, BoundarySites& sites) {
     const LocalIndex first = sites.loop_start[loop];
     thread_loop(sites.loop_start[loop + 1] - first, 256, [&](std::ptrdiff_t k, int) {
       BoundarySite& site = sites.sites[static_cast<std::size_t>(first + k)];
-      site.part = part_in_the_middle(boundary.loops[loop], site, sites.sites[static_cast<std::size_t>(site.next)]);
+      const geometry::Piece& piece =
+          piece_in_the_middle(boundary.loops[loop], site, sites.sites[static_cast<std::size_t>(site.next)]);
+      site.part = piece.part;
+      site.region = piece.region;
     });
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The chords of the curves inside a shape: edges that the mesh must have, with the shape on both sides.
+// The chords of the curves and interfaces inside a shape: edges that the mesh must have, with the shape on both sides.
 #pragma once
 
 #include "trime/core/types.hpp"
@@ -12,10 +12,11 @@
 
 namespace trime::polygon {
 
-/// A straight edge between two neighbouring sites on a curve inside the shape, in the direction of the curve.
+/// A straight edge between two neighbouring sites on a curve or an interface inside the shape, in the direction of it.
 struct InnerChord {
   geometry::Segment ends;
-  std::int32_t curve = 0; ///< number of the curve, an index into geometry::InnerCurves::names
+  std::int32_t curve = 0; ///< number of the curve, an index into geometry::InnerCurves::names; -1: an interface only
+  std::int32_t left = 0, right = 0; ///< regions on both sides, as indices into geometry::Regions::names
 };
 
 /// @brief The chords of all curves inside a shape, and the sites on the curves. The sites never move. An end of a chord

@@ -41,6 +41,7 @@ struct BoundarySite {
   double along = 0;            ///< arc length from the start of the piece
   std::int32_t part =
       0; ///< part of the shape at the middle of the chord to `next`, as an index into Boundary::part_names
+  std::int32_t region = 0; ///< region on the left of this chord, as an index into geometry::Regions::names
 };
 
 /// The boundary sites. Invariants: the sites of one loop are consecutive and in order. A loop has at least 3 sites. No

@@ -38,16 +38,17 @@ void settle_area_on_torus(Boundary& boundary, double torus) {
   boundary.area -= torus * std::floor(boundary.area / torus);
 }
 
+double least_area(const Boundary& boundary, const Frame& frame) {
+  return 0.5 * VertexTable::merge_steps * frame.step() * boundary.length();
+}
+
 void check_area(const Boundary& boundary, const std::string& region, const Frame& frame) {
-  double length = 0;
-  for (const Loop& loop : boundary.loops)
-    length += loop.length();
-  if (const double least = 0.5 * VertexTable::merge_steps * frame.step() * length; !(boundary.area > least)) {
+  if (const double least = least_area(boundary, frame); !(boundary.area > least)) {
     const Vec2 p = boundary.loops.front().pieces.front().start;
     throw GeometryError(
         fmt::format("the geometry '{}' is thinner than the resolution of the container: expected an area above {:.3g} "
                     "inside of a boundary of length {:.6g}, found {:.3g}; its boundary begins at {}",
-                    region, least, length, boundary.area, Place(p, 10)));
+                    region, least, boundary.length(), boundary.area, Place(p, 10)));
   }
 }
 

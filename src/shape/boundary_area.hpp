@@ -24,6 +24,9 @@ bool is_sliver(const geometry::Loop& loop, double twice_area, const geometry::Fr
 /// @pre there are loops
 void settle_area_on_torus(geometry::Boundary& boundary, double torus);
 
+/// Returns an area that is not larger than rounding errors along the boundary.
+double least_area(const geometry::Boundary& boundary, const geometry::Frame& frame);
+
 /// @brief Checks that a shape has an area. Two loops that wind around a container and coincide enclose only rounding
 /// errors.
 /// @throws GeometryError for a shape whose area is not larger than rounding errors, with its expression and a place

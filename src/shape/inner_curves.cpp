@@ -67,12 +67,17 @@ private:
   bool is_node(LocalIndex vertex) const {
     const auto [low, high] = at_vertex(vertex);
     return on_boundary_[static_cast<std::size_t>(vertex)] != 0 || high - low != 2 ||
-           pieces_[low->second].piece.part != pieces_[low[1].second].piece.part;
+           pieces_[low->second].piece.part != pieces_[low[1].second].piece.part ||
+           pair_of(pieces_[low->second]) != pair_of(pieces_[low[1].second]);
   }
+
+  static std::pair<int, int> pair_of(const CurvePiece& piece) { return std::minmax({piece.left, piece.right}); }
 
   /// From a vertex along a piece to the next node, or once around.
   InnerArc follow(std::size_t piece, LocalIndex from) {
     InnerArc arc;
+    arc.left = pieces_[piece].from == from ? pieces_[piece].left : pieces_[piece].right;
+    arc.right = pieces_[piece].from == from ? pieces_[piece].right : pieces_[piece].left;
     for (LocalIndex at = from;;) {
       const CurvePiece& next = pieces_[piece];
       used_[piece] = 1;

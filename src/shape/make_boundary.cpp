@@ -4,13 +4,13 @@
 // border are one node, and the chains are unrolled.
 #include "shape/make_boundary.hpp"
 
-#include "core/angle.hpp"
 #include "geometry/box_tree.hpp"
 #include "shape/arrangement.hpp"
 #include "shape/boundary_area.hpp"
-#include "shape/inner_curves.hpp"
+#include "shape/inner_pieces.hpp"
 #include "shape/part_images.hpp"
 #include "shape/parts_beside.hpp"
+#include "shape/region_sides.hpp"
 #include "shape/region_state.hpp"
 #include "shape/vertex_table.hpp"
 #include "trime/core/error.hpp"
@@ -48,21 +48,13 @@ Part cutting_part(const Frame& frame) {
   return Part::rectangle("the border of the container", box, frame);
 }
 
-Piece reversed_arc(Piece arc) {
-  const Vec2 from = arc.end - arc.center;
-  std::swap(arc.start, arc.end);
-  arc.start_angle = angle_of(from.y, from.x);
-  arc.sweep = -arc.sweep;
-  return arc;
-}
-
 class BoundaryMaker {
 public:
-  BoundaryMaker(const Region& region, std::span<const Part> parts, const Frame& frame, const CurveParts& curves)
-      : region_(region), frame_(frame), given_(parts), curves_(curves), domain_(domain_part(frame)),
-        cut_(cutting_part(frame)), placed_(place(parts)), arrangement_(placed_, frame) {
-    for (const Part& part : parts)
-      boundary_.part_names.push_back(part.name());
+  BoundaryMaker(const Region& region, std::span<const Part> parts, const Frame& frame, const InnerParts& inner)
+      : region_(region), frame_(frame), given_(parts), inner_(inner), sides_(inner.division, names_of(parts)),
+        domain_(domain_part(frame)), cut_(cutting_part(frame)), placed_(place(parts)), arrangement_(placed_, frame),
+        inside_(arrangement_, placed_, inner, first_curve(), region.text()) {
+    boundary_.part_names = names_of(parts);
     if (region.parts().back() == static_cast<int>(parts.size()))
       boundary_.part_names.emplace_back(domain_name);
     boundary_.periods = frame.periods();
@@ -87,14 +79,13 @@ public:
           fmt::format("the geometry '{}' is empty: no point lies in it; check the parts and the order of the operands",
                       region_.text()));
     check_area(boundary_, region_.text(), frame_);
+    const double least = least_area(boundary_, frame_);
+    if (sides_.any())
+      sides_.check(least, region_.text());
     std::vector<std::int32_t> markers = name_markers(boundary_, given_, frame_);
-    geometry::InnerCurves curves;
-    for (const Part& curve : curves_.curves)
-      curves.names.push_back(curve.name());
-    curves.on_boundary = std::move(on_boundary_length_);
-    curves.outside = std::move(outside_length_);
-    curves.arcs = join_pieces(std::move(on_curves_), on_boundary_, boundary_);
+    geometry::InnerCurves curves = inside_.curves(on_boundary_, boundary_);
     geometry::Domain domain(frame_, std::move(boundary_), std::move(markers));
+    domain.set_regions(sides_.regions(curves.arcs, least, region_.text()));
     domain.set_curves(std::move(curves));
     return domain;
   }
@@ -106,35 +97,43 @@ private:
   struct Kept {
     LocalIndex from, to, piece;
     bool reversed;
+    int region; ///< of the division
   };
 
-  /// One side of a piece.
-  struct Side {
-    bool is_region;
-    bool in_container; ///< always true unless the container is periodic
-  };
+  static std::vector<std::string> names_of(std::span<const Part> parts) {
+    std::vector<std::string> names;
+    for (const Part& part : parts)
+      names.push_back(part.name());
+    return names;
+  }
 
   /// The parts that occur, ascending by index, with their images; the cutting part last.
   std::vector<PlacedPart> place(std::span<const Part> parts) {
     std::vector<PlacedPart> placed;
-    for (const int index : region_.parts()) {
+    std::vector<int> used = sides_.parts();
+    used.insert(used.end(), region_.parts().begin(), region_.parts().end());
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    for (const int index : used) {
       const Part& part = index < static_cast<int>(parts.size()) ? parts[index] : domain_;
       check_frame(part, frame_);
       for (const Vec2 shift : image_shifts(part, frame_))
         placed.push_back({&part, index, shift});
     }
-    if (frame_.periods().any() && !curves_.curves.empty())
-      throw GeometryError(fmt::format("curve '{}': a periodic container cannot have curves inside yet; expected a "
-                                      "container without periods",
-                                      curves_.curves[0].name()));
+    if (frame_.periods().any() && (!inner_.curves.empty() || sides_.any()))
+      throw GeometryError(fmt::format(
+          "{} '{}': a periodic container cannot have curves or regions inside yet; expected "
+          "a container without periods",
+          sides_.any() ? "region" : "curve", sides_.any() ? inner_.division.regions[0].name : inner_.curves[0].name()));
     if (frame_.periods().any())
       placed.push_back({&cut_, cut_index, {}});
-    for (std::size_t k = 0; k < curves_.curves.size(); ++k)
-      placed.push_back({&curves_.curves[k], first_curve() + static_cast<int>(k), {}});
+    for (std::size_t k = 0; k < inner_.curves.size(); ++k)
+      placed.push_back({&inner_.curves[k], first_curve() + static_cast<int>(k), {}});
     return placed;
   }
   /// The index of the first curve; parts and the domain have lower ones.
   int first_curve() const { return static_cast<int>(given_.size()) + 1; }
+  bool has_inside() const { return !inner_.curves.empty() || sides_.any(); }
   bool is_curve(int place) const { return placed_[static_cast<std::size_t>(place)].index >= first_curve(); }
 
   int index_of(const Arrangement::Piece& piece) const { return placed_[piece.part].index; }
@@ -145,10 +144,10 @@ private:
   Vec2 middle(const Arrangement::Piece& piece) const;
   void classify();
   Side side_of(RegionState& state, const std::vector<int>& places) const;
+  void set_region(const std::vector<int>& places, const Piece& piece, Side& side);
+  Piece piece_of(const Arrangement::Piece& source) const;
   void keep_if_border(LocalIndex k, const Side& left, const Side& right);
-  void keep_if_curve(LocalIndex k, const Side& left, const Side& right);
   void note_curves();
-  [[noreturn]] void report_outside(int curve, const Arrangement::Piece& piece) const;
   void check_container() const;
   void link();
   [[noreturn]] void report_node(LocalIndex node) const;
@@ -160,16 +159,17 @@ private:
   const Region& region_;
   const Frame& frame_;
   std::span<const Part> given_;
-  const CurveParts& curves_;
+  const InnerParts& inner_;
+  RegionSides sides_;
   const Part domain_, cut_;
   const std::vector<PlacedPart> placed_;
   const Arrangement arrangement_;
+  InnerPieces inside_;
   std::vector<Kept> kept_;
   std::optional<Quotient> nodes_;
-  std::vector<LocalIndex> next_;                            // the kept piece that leaves each node, or -1
-  std::vector<CurvePiece> on_curves_;                       // those inside the shape
-  std::vector<double> on_boundary_length_, outside_length_; // by curve
-  std::vector<char> on_boundary_, meets_curve_;             // by vertex
+  std::vector<LocalIndex> next_;                // the kept piece that leaves each node, or -1
+  std::vector<char> on_boundary_, meets_curve_; // by vertex; empty if there are no curves and regions
+  std::vector<int> parts_of_side_;              // work space
   Boundary boundary_;
 };
 
@@ -228,72 +228,41 @@ void BoundaryMaker::classify() {
       if (!beside.has(place) && !is_curve(static_cast<int>(place)) && walks[place].inside(p - placed_[place].shift))
         beside.add_on_both(static_cast<int>(place));
     });
-    const Side left = side_of(state, beside.left()), right = side_of(state, beside.right());
+    Side left = side_of(state, beside.left()), right = side_of(state, beside.right());
+    if (sides_.any()) {
+      const Piece along = piece_of(piece);
+      set_region(beside.left(), along, left);
+      set_region(beside.right(), reversed(along), right);
+    }
     keep_if_border(static_cast<LocalIndex>(k), left, right);
-    if (!curves_.curves.empty())
-      keep_if_curve(static_cast<LocalIndex>(k), left, right);
+    if (has_inside())
+      inside_.look_at(static_cast<LocalIndex>(k), left, right, p);
   }
 }
 
-/// Keeps pieces of curves with the region on both sides. Those on the border belong to the boundary.
-void BoundaryMaker::keep_if_curve(LocalIndex k, const Side& left, const Side& right) {
-  const Arrangement::Piece& piece = arrangement_.pieces()[k];
-  int place = piece.part;
-  bool along = true;
-  for (LocalIndex t = piece.first_twin; !is_curve(place) && t < piece.first_twin + piece.twin_count; ++t) {
-    place = arrangement_.twins()[t].part;
-    along = arrangement_.twins()[t].along;
-  }
-  if (!is_curve(place))
-    return;
-  const int curve = placed_[static_cast<std::size_t>(place)].index - first_curve();
-  const double length =
-      geometry::length(arrangement_.vertices().point(piece.to) - arrangement_.vertices().point(piece.from));
-  on_boundary_length_.resize(curves_.curves.size());
-  outside_length_.resize(curves_.curves.size());
-  if (left.is_region != right.is_region) {
-    on_boundary_length_[static_cast<std::size_t>(curve)] += length;
-    return;
-  }
-  if (!left.is_region) {
-    outside_length_[static_cast<std::size_t>(curve)] += length;
-    if (curves_.clip.empty() || curves_.clip[static_cast<std::size_t>(curve)] == 0)
-      report_outside(curve, piece);
-    return;
-  }
-  CurvePiece& kept = on_curves_.emplace_back();
-  kept.from = along ? piece.from : piece.to;
-  kept.to = along ? piece.to : piece.from;
-  kept.piece.start = arrangement_.vertices().point(kept.from);
-  kept.piece.end = arrangement_.vertices().point(kept.to);
-  kept.piece.part = curve;
-}
-
-void BoundaryMaker::report_outside(int curve, const Arrangement::Piece& piece) const {
-  const Part& part = curves_.curves[static_cast<std::size_t>(curve)];
-  const Vec2 p = middle(piece);
-  const auto nearest = part.as_polygon()->grid.nearest(p);
-  const std::string& label = part.as_polygon()->labels[static_cast<std::size_t>(nearest.segment)];
-  throw GeometryError(
-      fmt::format("curve '{}'{} lies outside of the shape at {}: expected curves inside of the geometry "
-                  "'{}'; move it, or set clip = true to leave out what lies outside",
-                  part.name(), label.empty() ? "" : fmt::format(" ({})", label), Place(p, 12), region_.text()));
+/// Sets the region of the left side of a piece, and counts the area under the piece for it.
+void BoundaryMaker::set_region(const std::vector<int>& places, const Piece& piece, Side& side) {
+  parts_of_side_.clear();
+  for (const int place : places)
+    if (!is_curve(place))
+      parts_of_side_.push_back(placed_[static_cast<std::size_t>(place)].index);
+  side.region = sides_.at(parts_of_side_, side.is_region, twice_area_under({piece}, frame_.inner().min), piece.start);
 }
 
 /// Notes which vertices lie on the boundary, and where curves meet it.
 void BoundaryMaker::note_curves() {
-  if (curves_.curves.empty())
+  if (!has_inside())
     return;
   on_boundary_.assign(static_cast<std::size_t>(arrangement_.vertices().size()), 0);
   meets_curve_ = on_boundary_;
   for (const Kept& kept : kept_)
     on_boundary_[static_cast<std::size_t>(kept.from)] = 1;
-  for (const CurvePiece& piece : on_curves_)
+  for (const CurvePiece& piece : inside_.pieces())
     for (const LocalIndex end : {piece.from, piece.to})
       meets_curve_[static_cast<std::size_t>(end)] = 1;
 }
 
-BoundaryMaker::Side BoundaryMaker::side_of(RegionState& state, const std::vector<int>& places) const {
+Side BoundaryMaker::side_of(RegionState& state, const std::vector<int>& places) const {
   const auto is_cut = [&](int place) { return placed_[static_cast<std::size_t>(place)].index == cut_index; };
   const bool cuts = placed_.back().index == cut_index;
   return {holds(state, places), !cuts || std::any_of(places.begin(), places.end(), is_cut)};
@@ -304,9 +273,9 @@ BoundaryMaker::Side BoundaryMaker::side_of(RegionState& state, const std::vector
 void BoundaryMaker::keep_if_border(LocalIndex k, const Side& left, const Side& right) {
   const Arrangement::Piece& piece = arrangement_.pieces()[k];
   if (left.is_region && !right.is_region && left.in_container)
-    kept_.push_back({piece.from, piece.to, k, false});
+    kept_.push_back({piece.from, piece.to, k, false, left.region});
   else if (right.is_region && !left.is_region && right.in_container)
-    kept_.push_back({piece.to, piece.from, k, true});
+    kept_.push_back({piece.to, piece.from, k, true, right.region});
 }
 
 void BoundaryMaker::check_container() const {
@@ -400,6 +369,17 @@ void BoundaryMaker::chain() {
     boundary_.loops[k].tag = static_cast<int>(k) + 1;
 }
 
+/// The piece as it lies in the arrangement.
+Piece BoundaryMaker::piece_of(const Arrangement::Piece& source) const {
+  const Vec2 from = arrangement_.vertices().point(source.from), to = arrangement_.vertices().point(source.to);
+  if (source.circle >= 0)
+    return make_arc(arrangement_.circles()[source.circle], from, to);
+  Piece piece;
+  piece.start = from;
+  piece.end = to;
+  return piece;
+}
+
 /// The piece moved by `offset`.
 Piece BoundaryMaker::finished(const Kept& kept, Vec2 offset) const {
   const Arrangement::Piece& source = arrangement_.pieces()[kept.piece];
@@ -410,12 +390,13 @@ Piece BoundaryMaker::finished(const Kept& kept, Vec2 offset) const {
     circle.center = circle.center + offset;
     piece = make_arc(circle, from, to);
     if (kept.reversed)
-      piece = reversed_arc(piece);
+      piece = reversed(piece);
   } else {
     piece.start = kept.reversed ? to : from;
     piece.end = kept.reversed ? from : to;
   }
   piece.part = index_of(source);
+  piece.region = kept.region;
   piece.corner = !meets_curve_.empty() && meets_curve_[static_cast<std::size_t>(kept.from)] != 0;
   return piece;
 }
@@ -469,13 +450,13 @@ void BoundaryMaker::finish_periodic_area() {
 } // namespace
 
 geometry::Domain make_boundary(const Region& region, std::span<const Part> parts, const Frame& frame,
-                               const CurveParts& curves) {
-  return BoundaryMaker(region, parts, frame, curves).make(nullptr);
+                               const InnerParts& inner) {
+  return BoundaryMaker(region, parts, frame, inner).make(nullptr);
 }
 
 geometry::Domain make_boundary(const Region& region, std::vector<Part>&& parts, const Frame& frame,
-                               const CurveParts& curves) {
-  return BoundaryMaker(region, parts, frame, curves).make(&parts);
+                               const InnerParts& inner) {
+  return BoundaryMaker(region, parts, frame, inner).make(&parts);
 }
 
 } // namespace trime::shape

@@ -22,11 +22,11 @@ namespace trime::shape {
 /// then `domain` if the expression contains it. Cost: O(M log M) for M pieces.
 /// @throws GeometryError if the shape is empty, leaves the container, or its boundary touches itself, or if a part
 /// extends beyond a periodic side by more than one period
-/// @param curves curves inside the shape, see CurveParts
+/// @param inner curves and regions inside the shape
 geometry::Domain make_boundary(const Region& region, std::span<const Part> parts, const geometry::Frame& frame,
-                               const CurveParts& curves = {});
+                               const InnerParts& inner = {});
 /// Does the same, but frees the parts before loops are made, unless a periodic container or markers need them longer.
 geometry::Domain make_boundary(const Region& region, std::vector<Part>&& parts, const geometry::Frame& frame,
-                               const CurveParts& curves = {});
+                               const InnerParts& inner = {});
 
 } // namespace trime::shape

@@ -181,9 +181,9 @@ std::vector<std::string> names_of(const std::vector<Part>& parts) {
 
 } // namespace
 
-RegionShape::RegionShape(std::vector<Part> parts, std::string_view region, const Frame& frame, const CurveParts& curves)
+RegionShape::RegionShape(std::vector<Part> parts, std::string_view region, const Frame& frame, const InnerParts& inner)
     : parts_(std::move(parts)), region_(Region::parse(region, names_of(parts_))),
-      domain_(make_boundary(region_, parts_, frame, curves)), tree_(domain_.boundary()) {
+      domain_(make_boundary(region_, parts_, frame, inner)), tree_(domain_.boundary()) {
   parts_.push_back(domain_part(frame));
   shifts_.resize(parts_.size());
   for (const int part : region_.parts())
@@ -201,8 +201,8 @@ bool RegionShape::inside(Vec2 p) const {
 }
 
 geometry::Domain domain_of(std::vector<Part> parts, std::string_view region, const Frame& frame,
-                           const CurveParts& curves) {
-  return make_boundary(Region::parse(region, names_of(parts)), std::move(parts), frame, curves);
+                           const InnerParts& inner) {
+  return make_boundary(Region::parse(region, names_of(parts)), std::move(parts), frame, inner);
 }
 
 RegionShape traced(const tracing::Shape& shape, const Frame& frame, const std::string& name) {

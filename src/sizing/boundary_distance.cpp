@@ -80,9 +80,13 @@ geometry::Boundary named_curves(const geometry::Domain& domain) {
   const auto parts = static_cast<int>(named.part_names.size());
   const geometry::InnerCurves& inner = domain.curves();
   named.part_names.insert(named.part_names.end(), inner.names.begin(), inner.names.end());
+  const geometry::Regions& regions = domain.regions();
+  const auto first_pair = static_cast<int>(named.part_names.size());
+  for (std::size_t pair = 0; pair < regions.pairs.size(); ++pair)
+    named.part_names.push_back(regions.pair_name(pair));
   for (const geometry::InnerArc& arc : inner.arcs)
     for (geometry::Piece& piece : named.loops.emplace_back(geometry::Loop{arc.pieces}).pieces)
-      piece.part += parts;
+      piece.part = piece.part >= 0 ? parts + piece.part : first_pair + regions.pair_of(arc.left, arc.right);
   return named;
 }
 

@@ -60,7 +60,7 @@ void use_curves(const contours::Contour& contour) {
         for (const geometry::Vec2 p : ring.points)
           line.points.push_back(clip != 0 ? 2 * place.apply(p) : place.apply(p));
       }
-      shape::CurveParts curves;
+      shape::InnerParts curves;
       curves.curves.push_back(shape::Part::curve("curve", std::move(lines), frame));
       curves.clip = {clip};
       const geometry::Domain domain = shape::domain_of({}, "domain", frame, curves);

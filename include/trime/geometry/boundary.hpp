@@ -106,14 +106,25 @@ struct InnerCurves {
   bool empty() const { return arcs.empty(); }
 };
 
+/// An area that two regions were given and that the first of them has.
+struct RegionOverlap {
+  int first, second; ///< indices into Regions::names
+  double area;
+  Vec2 place; ///< on the boundary of the overlap
+};
+
 /// @brief The regions into which a shape is divided, such as materials. Region 0 is the rest, which no other region
 /// covers; it may be empty. In a mesh the regions have the numbers 1, 2, ... in the same order.
 struct Regions {
   std::vector<std::string> names;          ///< at least that of the rest
   std::vector<std::array<int, 2>> pairs{}; ///< regions that share an interface, the lower one first, in ascending order
   std::vector<double> areas{};             ///< area of each region in the shape as it was given
+  std::vector<double> outside{};           ///< area of each region as it was given that lies outside of the shape
+  std::vector<RegionOverlap> overlaps{};   ///< those that are more than rounding errors, in the order of the regions
   /// Returns whether the shape is divided.
   bool any() const { return names.size() > 1; }
+  /// Returns the index in `pairs` of two regions in any order; -1 if they share no interface. Cost: O(log pairs).
+  int pair_of(int a, int b) const;
   /// Returns the name of the interface between the regions of a pair, such as `rock|soil`.
   std::string pair_name(std::size_t pair) const {
     return names[static_cast<std::size_t>(pairs[pair][0])] + "|" + names[static_cast<std::size_t>(pairs[pair][1])];
@@ -158,6 +169,9 @@ public:
   /// The regions of the shape. Where an interface between them meets the boundary, a piece of the boundary begins.
   const Regions& regions() const { return regions_; }
   void set_regions(Regions regions) { regions_ = std::move(regions); }
+  /// Returns what messages call a line inside: the curve with this number, or if that is -1 the interface between these
+  /// regions.
+  std::string line_name(int curve, int left, int right) const;
 
 private:
   Frame frame_;

@@ -61,6 +61,13 @@ struct MeshOptions {
   int snapshot_interval = 0;
 };
 
+/// A region of the mesh.
+struct RegionSummary {
+  std::int64_t triangles = 0;
+  double area = 0;       ///< area of its triangles
+  double given_area = 0; ///< its area in the shape as it was given
+};
+
 /// The mesh, and everything that the report of a run prints about it.
 struct MeshResult {
   mesh::DistributedMesh mesh;
@@ -80,6 +87,7 @@ struct MeshResult {
   int components = 0, holes = 0;
   double shape_area = 0; ///< area of the meshed shape, without dropped islands but with filled lakes
   boundary::FeatureReport features;
+  std::vector<RegionSummary> regions; ///< in the order of geometry::Regions::names; empty if there is only one
 };
 
 } // namespace trime::meshing

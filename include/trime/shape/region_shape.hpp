@@ -83,10 +83,25 @@ private:
   std::vector<int> parts_;
 };
 
-/// The curves that edges of the mesh follow inside a shape.
-struct CurveParts {
+/// A region of a shape, such as a material.
+struct NamedRegion {
+  std::string name;
+  std::string geometry; ///< an expression over the same parts as the geometry of the shape, see Region::parse
+};
+
+/// @brief How a shape is divided into regions. A place belongs to the first region that contains it; a place in none
+/// of them belongs to the rest.
+struct Division {
+  std::vector<NamedRegion> regions{};
+  std::string rest{};     ///< name of the rest; empty: the text of the geometry
+  bool cover_all = false; ///< whether a rest with an area is an error
+};
+
+/// What lies inside a shape: curves that edges of the mesh follow, and regions.
+struct InnerParts {
   std::vector<Part> curves{}; ///< made by Part::curve
   std::vector<char> clip{}; ///< by curve: whether what lies outside of the shape is left out; otherwise it is an error
+  Division division{};
 };
 
 /// Parts joined by an expression. The shape does not change after construction; all queries are thread-safe.
@@ -97,10 +112,10 @@ public:
   /// @param region the expression, see Region::parse
   /// @throws ConfigError for a wrong expression or wrong names. GeometryError if the shape is empty, leaves the
   /// container or has a boundary that touches itself. Also if a part reaches over a periodic side by more than one
-  /// period, or was made in a frame with another lattice or place than `frame`. Also if a curve leaves the shape, or if
-  /// the container of a shape with curves is periodic
+  /// period, or was made in a frame with another lattice or place than `frame`. Also if a curve leaves the shape, if a
+  /// region has no area in it, or if the container of a shape with curves or regions is periodic
   RegionShape(std::vector<Part> parts, std::string_view region, const geometry::Frame& frame,
-              const CurveParts& curves = {});
+              const InnerParts& inner = {});
 
   /// Returns the domain, which the mesher takes.
   const geometry::Domain& domain() const { return domain_; }
@@ -134,7 +149,7 @@ private:
 /// that were needed to find the boundary. The domain is bit-identical to that of a RegionShape.
 /// @throws ConfigError, GeometryError under the conditions of the constructor of RegionShape
 geometry::Domain domain_of(std::vector<Part> parts, std::string_view region, const geometry::Frame& frame,
-                           const CurveParts& curves = {});
+                           const InnerParts& inner = {});
 
 /// Traces your own shape: returns a RegionShape that consists of it alone. See traced_part for cost and errors.
 RegionShape traced(const tracing::Shape& shape, const geometry::Frame& frame, const std::string& name = "shape");

@@ -32,7 +32,7 @@ const geometry::Frame frame(geometry::unit_square);
 
 /// The unit square with these lines; each line is a curve.
 geometry::Domain square_with(const std::vector<std::vector<Vec2>>& lines, bool closed = false) {
-  shape::CurveParts curves;
+  shape::InnerParts curves;
   for (std::size_t k = 0; k < lines.size(); ++k)
     curves.curves.push_back(shape::Part::curve("curve" + std::to_string(k), {{lines[k], closed}}, frame));
   return shape::domain_of({}, "domain", frame, curves);
@@ -86,7 +86,7 @@ TEST(InnerCurves, KnowSharpAngles) {
 
 TEST(InnerCurves, MustLieInside) {
   EXPECT_THROW(square_with({{{0.5, 0.5}, {1.5, 0.5}}}), GeometryError);
-  shape::CurveParts curves;
+  shape::InnerParts curves;
   curves.curves.push_back(shape::Part::curve("long", {{{{0.5, 0.5}, {1.5, 0.5}}, false}}, frame));
   curves.clip = {1};
   const geometry::Domain domain = shape::domain_of({}, "domain", frame, curves);
