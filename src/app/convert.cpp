@@ -27,6 +27,7 @@ formats::Names names_of(const Metadata& metadata) {
   formats::Names names{io::column_of<std::string>(metadata, "tags", "part_name"),
                        io::column_of<std::string>(metadata, "tags", "region_name"),
                        io::curve_names(metadata),
+                       io::interface_names(metadata),
                        {io::attribute_of<double>(metadata, "period_x"), io::attribute_of<double>(metadata, "period_y")},
                        value_text(metadata, "crs")};
   for (const io::Attribute& attribute : metadata.attributes)
@@ -83,6 +84,14 @@ const T& row(const Metadata& metadata, const char* group, const char* name, std:
   return column[k];
 }
 
+/// Labels of edges, which follow those of the names before.
+std::string labels_text(const char* edges, const std::vector<std::string>& names, std::size_t before) {
+  std::string text = fmt::format("labels of {} in other formats:", edges);
+  for (std::size_t k = 0; k < names.size(); ++k)
+    text += fmt::format("{} {} {}", k == 0 ? "" : ",", before + k + 1, names[k]);
+  return text + "\n";
+}
+
 /// The loops of each name together: a coast may have thousands of islands.
 std::string boundary_text(const Metadata& metadata) {
   struct Loops {
@@ -101,10 +110,29 @@ std::string boundary_text(const Metadata& metadata) {
   for (const auto& [name, loops] : named)
     text += fmt::format("{:<13} {:<7} {:>5} {:>10}  {:.6g}\n", name.first, name.second, loops.count, loops.edges,
                         loops.length);
-  text += "labels of boundary edges in other formats:";
-  for (std::size_t k = 0; k < tags<std::string>(metadata, "part_name").size(); ++k)
-    text += fmt::format("{} {} {}", k == 0 ? "" : ",", k + 1, tags<std::string>(metadata, "part_name")[k]);
-  return text + "\n";
+  const auto& parts = tags<std::string>(metadata, "part_name");
+  text += labels_text("boundary edges", parts, 0);
+  std::vector<std::string> inner = io::curve_names(metadata);
+  for (const std::string& name : io::interface_names(metadata))
+    inner.push_back(name);
+  return inner.empty() ? text : text + labels_text("edges inside", inner, parts.size());
+}
+
+/// Numbers of the regions and what they hold; nothing if the mesh has one region.
+std::string regions_text(const Metadata& metadata) {
+  if (!io::has_regions(metadata))
+    return {};
+  const bool has_counts = io::find_group(metadata, "regions") != nullptr; // a file of the library may lack it
+  std::string text = fmt::format("\nregion                 number{}\n", has_counts ? "  triangles  area" : "");
+  const auto& names = tags<std::string>(metadata, "region_name");
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    text += fmt::format("{:<21} {:>7}", names[k], row<std::int32_t>(metadata, "tags", "region_id", k));
+    if (has_counts)
+      text += fmt::format(" {:>10}  {:.6g}", row<std::int64_t>(metadata, "regions", "triangles", k),
+                          row<double>(metadata, "regions", "area", k));
+    text += "\n";
+  }
+  return text;
 }
 
 std::string checks_text(const Metadata& metadata) {
@@ -144,7 +172,7 @@ void convert(const CommandLine& line, io::RunFiles* files, const comm::Communica
   const std::string &from = line.files[0], &to = line.files[1];
   const formats::Format format = format_of_output(to);
   formats::refuse_to_replace(formats::paths_of(format, to), line.overwrite, "add --overwrite to replace it", comm);
-  const Metadata metadata = io::read_metadata(from, {"tags", "curves"}, comm);
+  const Metadata metadata = io::read_metadata(from, {"tags", "curves", "interfaces"}, comm);
   formats::Names names = names_of(metadata);
   names.in_degrees = line.in_degrees;
   const mesh::DistributedMesh mesh = io::read_mesh(from, metadata, comm);
@@ -156,14 +184,15 @@ void convert(const CommandLine& line, io::RunFiles* files, const comm::Communica
 }
 
 std::string info(const std::string& path, const comm::Communicator& comm) {
-  const Metadata metadata = io::read_metadata(path, {"checks", "quality", "tags", "curves"}, comm);
+  const Metadata metadata =
+      io::read_metadata(path, {"checks", "quality", "tags", "curves", "interfaces", "regions"}, comm);
   std::string text = fmt::format("{}: {} points, {} triangles{}\n", path, value_text(metadata, "points"),
                                  value_text(metadata, "triangles"), is_marked(metadata) ? "; NOT complete" : "");
   text += made_text(metadata);
   if (const formats::Names names = names_of(metadata); names.period.x != 0 || names.period.y != 0)
     text += fmt::format("periodic      with sides of {:.9g} and {:.9g} (0: not periodic)\n", names.period.x,
                         names.period.y);
-  text += boundary_text(metadata) + checks_text(metadata) + quality_text(metadata);
+  text += boundary_text(metadata) + regions_text(metadata) + checks_text(metadata) + quality_text(metadata);
   return text + fmt::format("\nmesh hash     {}\n", value_text(metadata, "mesh_hash_hex"));
 }
 

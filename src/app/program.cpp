@@ -27,6 +27,7 @@
 #include "polygon/polygon.hpp"
 #include "sites/rules.hpp"
 #include "trime/meshing/mesher.hpp"
+#include "trime/record/describe.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -163,8 +164,11 @@ formats::SeriesOptions series_options(const Job& job, const ShapeInput& input) {
   options.file.run_files = job.files;
   formats::Names& names = options.names;
   names.parts = boundary.part_names;
-  names.regions = {job.options.geometry};
+  const geometry::Regions regions = record::named(input.domain().regions(), job.options.geometry);
+  names.regions = regions.names;
   names.curves = input.domain().curves().names;
+  for (std::size_t pair = 0; pair < regions.pairs.size(); ++pair)
+    names.interfaces.push_back(regions.pair_name(pair));
   names.period = {boundary.periods.x, boundary.periods.y};
   names.crs = input.map.crs;
   formats::open_parts(names); // refuses unknown names, on all ranks
@@ -331,7 +335,7 @@ ExitCode MeshRun::run() {
                               job_.comm.is_root(),
                               {boundary().part_names,
                                input_.domain().part_markers(),
-                               job_.options.geometry,
+                               record::named(input_.domain().regions(), job_.options.geometry),
                                {boundary().periods.x, boundary().periods.y},
                                input_.map.crs,
                                input_.domain().curves().names,

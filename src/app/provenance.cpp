@@ -160,7 +160,7 @@ std::vector<io::Attribute> program_attributes(const CommandLine& line) {
 
 io::Metadata describe_run(const Provenance& p, const meshing::MeshResult& result, const SizeSummary& size,
                           const Measurements& measured) {
-  return record::with_curves(
+  return record::with_inner_edges(
       {joined({given_attributes(p), record::mesh_attributes(result.mesh, final_retriangulation(result)),
                record::result_attributes(result), measured_attributes(result, size, measured)}),
        texts(p),
@@ -175,7 +175,7 @@ io::Metadata describe_step(const Provenance& p, const meshing::Snapshot& snapsho
   const Attributes step{{"stop_reason", std::string("none: a step of the run")},
                         {"seconds_total", snapshot.seconds},
                         {"complete", std::int64_t{0}}};
-  return record::with_curves(
+  return record::with_inner_edges(
       {joined({given_attributes(p), record::mesh_attributes(snapshot.mesh, snapshot.retriangulation), step}),
        texts(p),
        {quality_group(snapshot.quality, p), record::tags_group(p.origin, snapshot.loops),

@@ -94,6 +94,20 @@ MetadataGroup tags_group(const Metadata& metadata, const std::vector<polygon::Lo
   return tags;
 }
 
+/// The regions have the same rows; their triangles and areas are new.
+MetadataGroup regions_group(MetadataGroup group, const std::vector<refinement::RegionSum>& sums) {
+  for (io::Column& column : group.columns) {
+    if (auto* triangles = std::get_if<std::vector<std::int64_t>>(&column.values);
+        triangles && column.name == "triangles")
+      for (std::size_t k = 0; k < triangles->size(); ++k)
+        (*triangles)[k] = k < sums.size() ? sums[k].triangles : 0;
+    if (auto* areas = std::get_if<std::vector<double>>(&column.values); areas && column.name == "area")
+      for (std::size_t k = 0; k < areas->size(); ++k)
+        (*areas)[k] = k < sums.size() ? sums[k].area : 0;
+  }
+  return group;
+}
+
 /// Adds the failed checks of the mesh that was refined, unless the refined mesh has a check of the same name: a
 /// boundary that lies too far from the shape still does.
 mesh::Checks with_failed(mesh::Checks checks, const Metadata& metadata) {
@@ -121,7 +135,7 @@ std::vector<io::Text> texts(const Metadata& metadata, const CommandLine& line) {
 } // namespace
 
 std::vector<std::string> groups_to_refine() {
-  return {"checks", "tags", "history", "rings", "sharp_corners", "curves", "normalization"};
+  return {"checks", "tags", "history", "rings", "sharp_corners", "curves", "interfaces", "regions", "normalization"};
 }
 
 bool says_complete(const Metadata& metadata) {
@@ -150,9 +164,11 @@ Metadata refined_metadata(const Metadata& metadata, const refinement::Refined& r
                         {"largest_size", sizes.largest},
                         {"complete", std::int64_t{!stopped_early && mesh::all_passed(checks)}}});
   set(made.attributes, refinement_attributes(metadata, refined, line));
-  for (const char* kept : {"history", "rings", "sharp_corners", "curves", "normalization"})
+  for (const char* kept : {"history", "rings", "sharp_corners", "curves", "interfaces", "normalization"})
     if (const MetadataGroup* group = io::find_group(metadata, kept))
       made.groups.push_back(*group);
+  if (const MetadataGroup* group = io::find_group(metadata, "regions"))
+    made.groups.push_back(regions_group(*group, refined.regions));
   made.groups.push_back(record::quality_group(refined.quality));
   made.groups.push_back(record::checks_group(checks));
   made.groups.push_back(record::bad_triangles_group(refined.quality));

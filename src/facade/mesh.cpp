@@ -29,21 +29,41 @@
 
 namespace trime {
 
-std::int32_t number_of(const std::string& name, const std::vector<std::string>& names) {
+std::int32_t number_of(const std::string& name, const std::vector<std::string>& names, const char* kind) {
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end())
-    throw ConfigError(fmt::format("the mesh has no boundary '{}'{}; known: {}", name, suggestion(name, names),
+    throw ConfigError(fmt::format("the mesh has no {} '{}'{}; known: {}", kind, name, suggestion(name, names),
                                   fmt::join(names, ", ")));
   return static_cast<std::int32_t>(found - names.begin());
 }
 
 std::vector<Facet> LocalMesh::facets(const std::string& name) const {
-  const std::int32_t part = number_of(name, names_);
+  const std::int32_t part = number_of(name, names_.facets);
   std::vector<Facet> found;
   for (std::size_t k = 0; k < arrays_.facets.size(); ++k)
     if (arrays_.facet_parts[k] == part)
       found.push_back({arrays_.facets[k][0], arrays_.facets[k][1], arrays_.facet_triangles[k], arrays_.facet_tags[k],
                        k < at(arrays_.owned_facets)});
+  return found;
+}
+
+std::vector<InnerEdge> LocalMesh::curve_edges(const std::string& name) const {
+  const std::int32_t curve = number_of(name, names_.curves, "curve");
+  std::vector<InnerEdge> found;
+  for (std::size_t k = 0; k < arrays_.curve_edges.size(); ++k)
+    if (arrays_.curve_numbers[k] == curve)
+      found.push_back({arrays_.curve_edges[k][0], arrays_.curve_edges[k][1], arrays_.curve_triangles[k][0],
+                       arrays_.curve_triangles[k][1], k < at(arrays_.owned_curve_edges)});
+  return found;
+}
+
+std::vector<InnerEdge> LocalMesh::interfaces(const std::string& name) const {
+  const std::int32_t pair = number_of(name, names_.interfaces, "interface");
+  std::vector<InnerEdge> found;
+  for (std::size_t k = 0; k < arrays_.interfaces.size(); ++k)
+    if (arrays_.interface_pairs[k] == pair)
+      found.push_back({arrays_.interfaces[k][0], arrays_.interfaces[k][1], arrays_.interface_triangles[k][0],
+                       arrays_.interface_triangles[k][1], k < at(arrays_.owned_interfaces)});
   return found;
 }
 
@@ -108,13 +128,29 @@ std::string text_of(const Size& size) {
   return size.function() || size.field() ? "a function of the program" : "uniform";
 }
 
+geometry::Regions regions_of(const io::Metadata& metadata) {
+  geometry::Regions regions{io::column_of<std::string>(metadata, "tags", "region_name")};
+  if (!io::has_regions(metadata))
+    return regions;
+  const auto& left = io::column_of<std::int32_t>(metadata, "interfaces", "left");
+  const auto& right = io::column_of<std::int32_t>(metadata, "interfaces", "right");
+  const auto last = std::ssize(regions.names);
+  for (std::size_t pair = 0; pair < std::min(left.size(), right.size()); ++pair) {
+    if (left[pair] < 1 || left[pair] > last || right[pair] < 1 || right[pair] > last)
+      throw FileError(fmt::format("/trime_mpi/interfaces names the regions {} and {}: expected numbers from 1 to {}; "
+                                  "the file is damaged",
+                                  left[pair], right[pair], last));
+    regions.pairs.push_back({left[pair] - 1, right[pair] - 1});
+  }
+  return regions;
+}
+
 /// The names and other things that are there for readers of the file.
 record::Origin origin_of(const io::Metadata& metadata) {
   record::Origin origin;
   origin.part_names = io::column_of<std::string>(metadata, "tags", "part_name");
   origin.part_markers = io::column_of<std::int32_t>(metadata, "tags", "part_marker");
-  const auto& regions = io::column_of<std::string>(metadata, "tags", "region_name");
-  origin.region = regions.empty() ? "" : regions[0];
+  origin.regions = regions_of(metadata);
   origin.period = {io::attribute_of<double>(metadata, "period_x"), io::attribute_of<double>(metadata, "period_y")};
   origin.crs = io::attribute_of<std::string>(metadata, "crs");
   origin.curve_names = io::curve_names(metadata);
@@ -162,6 +198,13 @@ mesh::QualitySummary quality_of(const io::Metadata& metadata) {
   return quality;
 }
 
+formats::Names names_of(const record::Origin& origin) {
+  formats::Names names{origin.part_names, origin.regions.names, origin.curve_names, {}, origin.period, origin.crs};
+  for (std::size_t pair = 0; pair < origin.regions.pairs.size(); ++pair)
+    names.interfaces.push_back(origin.regions.pair_name(pair));
+  return names;
+}
+
 constexpr const char* how_to_replace = "set WriteOptions::overwrite to replace it, or choose another path";
 
 void make_directory_of(const fs::path& path, const comm::Communicator& comm) {
@@ -202,6 +245,10 @@ std::uint64_t Mesh::hash() const {
 const std::vector<std::string>& Mesh::facet_names() const {
   return implementation_->origin.part_names;
 }
+MeshNames Mesh::names() const {
+  const formats::Names names = names_of(implementation_->origin);
+  return {names.parts, names.regions, names.curves, names.interfaces};
+}
 const meshing::MeshResult& Mesh::result() const {
   return implementation_->result;
 }
@@ -221,8 +268,7 @@ std::vector<std::array<GlobalId, 2>> Mesh::facets(const std::string& name) const
 
 LocalMesh Mesh::local(handover::Overlap overlap) const {
   check_running();
-  return {handover::make_local_mesh(communicator(), result().mesh, overlap), facet_names(),
-          implementation_->communicator};
+  return {handover::make_local_mesh(communicator(), result().mesh, overlap), names(), implementation_->communicator};
 }
 
 void Mesh::write(const std::string& path, const WriteOptions& options) const {
@@ -255,8 +301,7 @@ void Mesh::write(const std::string& path, const WriteOptions& options) const {
                                   path));
   formats::refuse_to_replace(formats::paths_of(*format, path), options.overwrite, how_to_replace, comm);
   make_directory_of(file, comm);
-  formats::write(*format, path, result().mesh,
-                 {origin.part_names, {origin.region}, origin.curve_names, origin.period, origin.crs}, nullptr, comm);
+  formats::write(*format, path, result().mesh, names_of(origin), nullptr, comm);
 }
 
 Mesh make_mesh(MPI_Comm handle, const Shape& shape, const Size& size, const MeshOptions& options) {
@@ -272,9 +317,12 @@ Mesh make_mesh(MPI_Comm handle, const Shape& shape, const Size& size, const Mesh
   auto made = std::make_unique<Mesh::Implementation>();
   made->communicator = comm;
   made->result = meshing::Mesher(*comm, domain, *field, lower, log, timers).run();
-  made->origin = {
-      boundary.part_names,  domain.part_markers(), shape.text(), {boundary.periods.x, boundary.periods.y}, {},
-      domain.curves().names};
+  made->origin = {boundary.part_names,
+                  domain.part_markers(),
+                  record::named(domain.regions(), shape.text()),
+                  {boundary.periods.x, boundary.periods.y},
+                  {},
+                  domain.curves().names};
   made->metadata = record::describe(made->result, made->origin, text_of(size), *comm);
   return Mesh(std::move(made));
 }
@@ -286,10 +334,10 @@ Mesh make_mesh(MPI_Comm comm, const Shape& shape, const MeshOptions& options) {
 Mesh read_mesh(MPI_Comm handle, const std::string& path) {
   auto read = std::make_unique<Mesh::Implementation>();
   read->communicator = std::make_shared<const comm::Communicator>(comm::duplicate_of(handle));
-  read->metadata = io::read_metadata(
-      path,
-      {"history", "quality", "checks", "worst_triangles", "tags", "sharp_corners", "rings", "curves", "normalization"},
-      *read->communicator);
+  read->metadata = io::read_metadata(path,
+                                     {"history", "quality", "checks", "worst_triangles", "tags", "sharp_corners",
+                                      "rings", "curves", "interfaces", "regions", "normalization"},
+                                     *read->communicator);
   read->origin = origin_of(read->metadata);
   read->result.checks = record::checks_of(read->metadata);
   read->result.quality = quality_of(read->metadata);

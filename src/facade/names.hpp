@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds the number of a boundary name.
+// Finds the number of a name of the mesh.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace trime {
 
-/// Returns the index of `name` in `names`.
+/// Returns the index of `name` in `names`, which are those of the boundary or of another kind.
 /// @throws ConfigError on this rank alone if the name is unknown; the message lists the known names
-std::int32_t number_of(const std::string& name, const std::vector<std::string>& names);
+std::int32_t number_of(const std::string& name, const std::vector<std::string>& names, const char* kind = "boundary");
 
 } // namespace trime

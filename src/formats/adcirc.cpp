@@ -45,7 +45,7 @@ std::string boundary_text(const std::vector<NodeString>& strings, const Names& n
 } // namespace
 
 std::vector<FilePlan> plan_adcirc(const ExchangeMesh& mesh, const std::string& path) {
-  const std::string& title = mesh.names().regions.empty() ? path : mesh.names().regions[0];
+  const std::string& title = mesh.names().regions.size() == 1 ? mesh.names().regions[0] : path;
   return {{path,
            {mesh.once(fmt::format("{}\n{} {}\n", title, mesh.triangles(), mesh.points())),
             numbered_points(mesh, "", "fort14"),

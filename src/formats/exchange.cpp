@@ -36,9 +36,10 @@ void check_fits(const FormatInfo& format, const mesh::DistributedMesh& mesh, con
                                   format.word, with.period.x, with.period.y,
                                   words_of(&FormatInfo::holds_periodic, "or")));
   constexpr GlobalId most = std::numeric_limits<std::int32_t>::max();
-  const GlobalId triangles = mesh.triangle_slab.total, facets = mesh.facet_slab.total + mesh.curve_slab.total;
-  const GlobalId elements =
-      format.format == Format::triangle ? (3 * triangles + facets) / 2 : triangles + facets; // .edge
+  const GlobalId triangles = mesh.triangle_slab.total, facets = mesh.facet_slab.total;
+  const GlobalId elements = format.format == Format::triangle
+                                ? (3 * triangles + facets) / 2 // in .edge
+                                : triangles + facets + mesh.curve_slab.total + mesh.interface_slab.total;
   if (!format.has_long_ids && elements > most)
     throw ConfigError(fmt::format("the format '{}' counts with 32 bits: expected at most {} triangles and edges, found "
                                   "{}; use {}",

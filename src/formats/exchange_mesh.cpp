@@ -28,8 +28,22 @@ ExchangeMesh::ExchangeMesh(const mesh::DistributedMesh& mesh, const Names& names
     : mesh_(mesh), names_(names), comm_(comm) {
   line_names_ = names.parts;
   line_names_.insert(line_names_.end(), names.curves.begin(), names.curves.end());
+  line_names_.insert(line_names_.end(), names.interfaces.begin(), names.interfaces.end());
+  comm::run_agreed(comm, [&] { check_numbers(); });
+  lines_ = io::labelled_lines(mesh, names.parts.size(), names.curves.size(), comm);
   count();
   label_points();
+}
+
+void ExchangeMesh::check_numbers() const {
+  for (const std::int32_t part : mesh_.facet_parts)
+    check_range(part, names_.parts.size(), "part");
+  for (const std::int32_t curve : mesh_.curve_numbers)
+    check_range(curve, names_.curves.size(), "curve");
+  for (const std::int32_t pair : mesh_.interface_pairs)
+    check_range(pair, names_.interfaces.size(), "interface");
+  for (std::int64_t row = 0; row < std::ssize(mesh_.triangles); ++row)
+    check_range(region(row) - 1, names_.regions.size(), "region");
 }
 
 void ExchangeMesh::count() {
@@ -37,24 +51,14 @@ void ExchangeMesh::count() {
   std::array<double, 2> least{huge, huge}, most{-huge, -huge};
   lines_of_.assign(line_names_.size(), 0);
   triangles_of_region_.assign(names_.regions.size(), 0);
-  comm::run_agreed(comm_, [&] {
-    for (const std::int32_t part : mesh_.facet_parts) {
-      check_range(part, names_.parts.size(), "part");
-      ++lines_of_[static_cast<std::size_t>(part)];
-    }
-    for (const std::int32_t curve : mesh_.curve_numbers) {
-      check_range(curve, names_.curves.size(), "curve");
-      ++lines_of_[names_.parts.size() + static_cast<std::size_t>(curve)];
-    }
-    for (std::int64_t row = 0; row < std::ssize(mesh_.triangles); ++row) {
-      check_range(region(row) - 1, names_.regions.size(), "region");
-      ++triangles_of_region_[static_cast<std::size_t>(region(row) - 1)];
-    }
-    for (const geometry::Vec2 p : mesh_.points) {
-      least = {std::min(least[0], p.x), std::min(least[1], p.y)};
-      most = {std::max(most[0], p.x), std::max(most[1], p.y)};
-    }
-  });
+  for (std::int64_t row = 0; row < rank_lines(); ++row)
+    ++lines_of_[static_cast<std::size_t>(line_label(row) - 1)];
+  for (std::int64_t row = 0; row < std::ssize(mesh_.triangles); ++row)
+    ++triangles_of_region_[static_cast<std::size_t>(region(row) - 1)];
+  for (const geometry::Vec2 p : mesh_.points) {
+    least = {std::min(least[0], p.x), std::min(least[1], p.y)};
+    most = {std::max(most[0], p.x), std::max(most[1], p.y)};
+  }
   comm_.sum(lines_of_);
   comm_.sum(triangles_of_region_);
   comm_.min(least);
@@ -63,7 +67,7 @@ void ExchangeMesh::count() {
   upper_ = {most[0], most[1]};
 }
 
-/// Ranks send messages about boundary edges to the owners of their points.
+/// Ranks send messages about labelled edges to the owners of their points.
 void ExchangeMesh::label_points() {
   const std::vector<std::int64_t> firsts = comm_.all_gather(mesh_.point_slab.first);
   std::vector<PointLabel> labels;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Gives a distributed mesh to the writers of formats of other programs: as rows of points, triangles and labelled
-// boundary edges.
+// edges.
 #pragma once
 
+#include "io/labelled_lines.hpp"
 #include "io/text_rows.hpp"
 #include "trime/comm/communicator.hpp"
 #include "trime/formats/exchange.hpp"
@@ -42,11 +43,12 @@ public:
   const comm::Communicator& comm() const { return comm_; }
   GlobalId points() const { return mesh_.point_slab.total; }
   GlobalId triangles() const { return mesh_.triangle_slab.total; }
-  /// Returns the number of edges with labels over all ranks: edges on the boundary, and edges on curves inside. On each
-  /// rank the former come first.
-  GlobalId lines() const { return mesh_.facet_slab.total + mesh_.curve_slab.total; }
-  std::int64_t rank_lines() const { return std::ssize(mesh_.facets) + std::ssize(mesh_.curve_edges); } ///< on this rank
-  /// Returns the names of these edges: label k + 1 has the name k. First the parts of the boundary, then the curves.
+  /// Returns the number of edges with labels over all ranks: edges on the boundary, then edges on curves inside, then
+  /// edges between regions. The order does not depend on the number of ranks.
+  GlobalId lines() const { return lines_.slab.total; }
+  std::int64_t rank_lines() const { return std::ssize(lines_.ends); } ///< on this rank
+  /// Returns the names of these edges: label k + 1 has the name k. First the parts of the boundary, then the curves and
+  /// the interfaces.
   const std::vector<std::string>& line_names() const { return line_names_; }
   /// Return the number of edges with a name, and of triangles of a region, over all ranks.
   GlobalId lines_of(std::size_t name) const { return lines_of_[name]; }
@@ -56,15 +58,8 @@ public:
 
   /// Return the ends and the label of an edge, the region of a triangle, and the label of a point (0 inside); `row`
   /// counts on this rank.
-  const std::array<GlobalId, 2>& line(std::int64_t row) const {
-    const auto k = static_cast<std::size_t>(row), facets = mesh_.facets.size();
-    return k < facets ? mesh_.facets[k] : mesh_.curve_edges[k - facets];
-  }
-  std::int64_t line_label(std::int64_t row) const {
-    const auto k = static_cast<std::size_t>(row), facets = mesh_.facets.size();
-    return 1 + (k < facets ? mesh_.facet_parts[k]
-                           : static_cast<std::int64_t>(names_.parts.size()) + mesh_.curve_numbers[k - facets]);
-  }
+  const std::array<GlobalId, 2>& line(std::int64_t row) const { return lines_.ends[static_cast<std::size_t>(row)]; }
+  std::int64_t line_label(std::int64_t row) const { return lines_.labels[static_cast<std::size_t>(row)]; }
   std::int64_t region(std::int64_t row) const {
     return mesh_.region.empty() ? 1 : mesh_.region[static_cast<std::size_t>(row)];
   }
@@ -88,17 +83,19 @@ public:
   template <class Append>
   io::TextRows line_rows(const Append& append) const {
     return {rank_lines(), [this, append](std::int64_t row, std::string& text) {
-              append(row, mesh_.facet_slab.first + mesh_.curve_slab.first + row, line(row), text);
+              append(row, lines_.slab.first + row, line(row), text);
             }};
   }
 
 private:
+  void check_numbers() const;
   void count();
   void label_points();
 
   const mesh::DistributedMesh& mesh_;
   const Names& names_;
   const comm::Communicator& comm_;
+  io::LabelledLines lines_;
   std::vector<std::string> line_names_;
   std::vector<std::int64_t> lines_of_, triangles_of_region_;
   std::vector<std::int32_t> point_labels_; // label of each point of the slab

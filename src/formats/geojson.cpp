@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// GeoJSON (RFC 7946) for GDAL and QGIS: a polygon for each triangle, then a line for each boundary edge. Coordinates
+// GeoJSON (RFC 7946) for GDAL and QGIS: a polygon for each triangle, then a line for each labelled edge. Coordinates
 // are longitude and latitude where the reference system of the mesh is known, else those of the mesh.
 #include "comm/agree.hpp"
 #include "formats/degrees.hpp"

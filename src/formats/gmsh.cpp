@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// MSH 4.1 and 2.2 of Gmsh (reference manual, "MSH file format" and "Legacy formats"), binary: boundary parts and
-// regions are physical groups. Each part is a curve and each region a surface, since all elements of one entity lie in
-// the same groups.
+// MSH 4.1 and 2.2 of Gmsh (reference manual, "MSH file format" and "Legacy formats"), binary: boundary parts, curves,
+// interfaces and regions are physical groups. Each part is a curve and each region a surface, since all elements of one
+// entity lie in the same groups.
 #include "formats/exchange_mesh.hpp"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ std::string quoted(std::string name) {
   return '"' + name + '"';
 }
 
-/// @brief Parts of the boundary that have edges, ascending. The others are not curves of the file: meshio and dolfinx
+/// @brief Names of edges that have edges, ascending. The others are not curves of the file: meshio and dolfinx
 /// do not read an entity without elements.
 std::vector<std::size_t> parts_with_edges(const ExchangeMesh& mesh) {
   std::vector<std::size_t> parts;
@@ -29,6 +29,15 @@ std::vector<std::size_t> parts_with_edges(const ExchangeMesh& mesh) {
     if (mesh.lines_of(part) > 0)
       parts.push_back(part);
   return parts;
+}
+
+/// @brief Regions that have triangles, ascending, as indices into Names::regions. @pre the mesh has a triangle
+std::vector<std::size_t> regions_with_triangles(const ExchangeMesh& mesh) {
+  std::vector<std::size_t> regions;
+  for (std::size_t region = 0; region < mesh.names().regions.size(); ++region)
+    if (mesh.triangles_of_region(region) > 0)
+      regions.push_back(region);
+  return regions;
 }
 
 /// meshio knows a group by its name alone: a region that is called like a part of the boundary gets "region" in front.
@@ -41,11 +50,11 @@ std::string surface_name(std::string name, const ExchangeMesh& mesh, const std::
 
 std::string physical_names(const ExchangeMesh& mesh) {
   const Names& names = mesh.names();
-  const std::vector<std::size_t> parts = parts_with_edges(mesh);
-  std::string text = fmt::format("$PhysicalNames\n{}\n", parts.size() + names.regions.size());
+  const std::vector<std::size_t> parts = parts_with_edges(mesh), regions = regions_with_triangles(mesh);
+  std::string text = fmt::format("$PhysicalNames\n{}\n", parts.size() + regions.size());
   for (const std::size_t k : parts)
     text += fmt::format("{} {} {}\n", curve, k + 1, quoted(mesh.line_names()[k]));
-  for (std::size_t k = 0; k < names.regions.size(); ++k)
+  for (const std::size_t k : regions)
     text += fmt::format("{} {} {}\n", surface, k + 1, quoted(surface_name(names.regions[k], mesh, parts)));
   return text + "$EndPhysicalNames\n";
 }
@@ -70,14 +79,14 @@ void append_entity(std::string& text, const ExchangeMesh& mesh, std::size_t numb
 
 std::string entities(const ExchangeMesh& mesh) {
   const std::vector<std::size_t> parts = parts_with_edges(mesh);
-  const std::size_t surfaces = mesh.names().regions.size();
+  const std::vector<std::size_t> regions = regions_with_triangles(mesh);
   std::string text = "$Entities\n";
-  for (const std::size_t count : {std::size_t{0}, parts.size(), surfaces, std::size_t{0}})
+  for (const std::size_t count : {std::size_t{0}, parts.size(), regions.size(), std::size_t{0}})
     append_bytes(text, static_cast<std::uint64_t>(count));
   for (const std::size_t part : parts)
     append_entity(text, mesh, part + 1, 0);
-  for (std::size_t k = 1; k <= surfaces; ++k) {
-    append_entity(text, mesh, k, parts.size());
+  for (const std::size_t region : regions) {
+    append_entity(text, mesh, region + 1, parts.size());
     for (const std::size_t part : parts)
       append_bytes(text, static_cast<std::int32_t>(part + 1));
   }
@@ -108,7 +117,8 @@ void add_nodes(const ExchangeMesh& mesh, std::vector<io::TextRows>& rows) {
   const GlobalId points = mesh.points();
   std::string text = "$Nodes\n";
   append_counts(text, {1, points, 1, points});
-  rows.push_back(mesh.once(text + block(surface, 1, 0, points)));
+  const std::vector<std::size_t> regions = regions_with_triangles(mesh);
+  rows.push_back(mesh.once(text + block(surface, regions.empty() ? 1 : regions[0] + 1, 0, points)));
   rows.push_back(
       mesh.point_rows([](std::int64_t, GlobalId id, geometry::Vec2, std::string& to) { append_bytes(to, id + 1); }));
   rows.push_back(
@@ -120,9 +130,9 @@ void add_nodes(const ExchangeMesh& mesh, std::vector<io::TextRows>& rows) {
 void add_elements(const ExchangeMesh& mesh, std::vector<io::TextRows>& rows) {
   const GlobalId facets = mesh.lines(), elements = facets + mesh.triangles();
   const std::vector<std::size_t> parts = parts_with_edges(mesh);
-  const std::size_t surfaces = mesh.names().regions.size();
+  const std::vector<std::size_t> regions = regions_with_triangles(mesh);
   std::string text = "$Elements\n";
-  append_counts(text, {static_cast<std::int64_t>(parts.size() + surfaces), elements, 1, elements});
+  append_counts(text, {static_cast<std::int64_t>(parts.size() + regions.size()), elements, 1, elements});
   rows.push_back(mesh.once(text));
   for (const std::size_t part : parts) {
     rows.push_back(mesh.once(block(curve, part + 1, line_type, mesh.lines_of(part))));
@@ -133,11 +143,12 @@ void add_elements(const ExchangeMesh& mesh, std::vector<io::TextRows>& rows) {
             append_counts(to, {id + 1, ends[0] + 1, ends[1] + 1});
         }));
   }
-  for (std::size_t region = 1; region <= surfaces; ++region) {
-    rows.push_back(mesh.once(block(surface, region, triangle_type, mesh.triangles_of_region(region - 1))));
-    rows.push_back(mesh.triangle_rows([&mesh, facets, region](std::int64_t row, GlobalId id,
+  for (const std::size_t region : regions) {
+    rows.push_back(mesh.once(block(surface, region + 1, triangle_type, mesh.triangles_of_region(region))));
+    const auto number = static_cast<std::int64_t>(region) + 1;
+    rows.push_back(mesh.triangle_rows([&mesh, facets, number](std::int64_t row, GlobalId id,
                                                               const std::array<GlobalId, 3>& corners, std::string& to) {
-      if (mesh.region(row) == static_cast<std::int64_t>(region))
+      if (mesh.region(row) == number)
         append_counts(to, {facets + id + 1, corners[0] + 1, corners[1] + 1, corners[2] + 1});
     }));
   }

@@ -25,8 +25,8 @@ std::vector<Edge> gather_edges(const ExchangeMesh& exchange) {
   const io::PointLookup points(mesh, firsts, comm);
   std::string bytes;
   for (std::size_t k = 0; k < mesh.facets.size(); ++k)
-    append_bytes(bytes, Edge{mesh.facets[k][0], mesh.facets[k][1], mesh.facet_tags[k],
-                             exchange.line_label(static_cast<std::int64_t>(k)), points[mesh.facets[k][0]].position});
+    append_bytes(bytes, Edge{mesh.facets[k][0], mesh.facets[k][1], mesh.facet_tags[k], mesh.facet_parts[k] + 1,
+                             points[mesh.facets[k][0]].position});
   std::vector<Edge> edges;
   for (const std::string& part : comm.gather(bytes)) {
     const std::size_t before = edges.size();

@@ -16,6 +16,8 @@ std::string mesh_name(const Names& names) {
   std::string text = "MESHNAME \"";
   for (std::size_t k = 0; k < names.parts.size(); ++k)
     text += fmt::format("{}node string {}: {}", k == 0 ? "" : ", ", k + 1, names.parts[k]);
+  for (std::size_t k = 0; names.regions.size() > 1 && k < names.regions.size(); ++k)
+    text += fmt::format(", material {}: {}", k + 1, names.regions[k]);
   return text + "\"\n";
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The files of Triangle (Shewchuk, https://www.cs.cmu.edu/~quake/triangle.html): .node and .edge with boundary markers,
 // .ele with the region as its attribute. Numbers begin with 1. As with Triangle's option -e, .edge holds all edges:
-// those of the boundary first, then those inside, with the marker 0. Programs look up each side of a triangle there.
+// those of the boundary and others with a name first, then those inside, with the marker 0. Programs look up each side
+// of a triangle there.
 #include "comm/agree.hpp"
 #include "formats/exchange_mesh.hpp"
 
@@ -23,18 +24,19 @@ std::string comments(const char* what, const std::vector<std::string>& names) {
 using Corners = std::array<GlobalId, 3>;
 using Side = std::array<GlobalId, 2>;
 
-/// The edges inside the mesh. Each is the ascending side of one triangle, which lists it.
+/// The edges inside the mesh without a label. Each is the ascending side of one triangle, which lists it.
 class InnerEdges {
 public:
   /// O(boundary) and 8 bytes a triangle of this rank. Collective.
   explicit InnerEdges(const ExchangeMesh& mesh)
-      : facets_(comm::gather_everywhere(mesh.comm(), std::vector<Side>(mesh.mesh().facets))) {
-    std::vector<Side> on_curves;
-    for (const auto& [a, b] : mesh.mesh().curve_edges)
-      on_curves.push_back({std::min(a, b), std::max(a, b)});
-    const std::vector<Side> all = comm::gather_everywhere(mesh.comm(), std::move(on_curves));
-    facets_.insert(facets_.end(), all.begin(), all.end());
-    std::sort(facets_.begin(), facets_.end());
+      : labelled_(comm::gather_everywhere(mesh.comm(), std::vector<Side>(mesh.mesh().facets))) {
+    std::vector<Side> inside;
+    for (const std::vector<Side>* list : {&mesh.mesh().curve_edges, &mesh.mesh().interfaces})
+      for (const auto& [a, b] : *list)
+        inside.push_back({std::min(a, b), std::max(a, b)});
+    const std::vector<Side> all = comm::gather_everywhere(mesh.comm(), std::move(inside));
+    labelled_.insert(labelled_.end(), all.begin(), all.end());
+    std::sort(labelled_.begin(), labelled_.end());
     std::int64_t edges = 0;
     for (std::size_t row = 0; row < mesh.mesh().triangles.size(); ++row) {
       first_.push_back(edges);
@@ -47,27 +49,27 @@ public:
     total_ = mesh.lines() + mesh.comm().sum(edges);
   }
 
-  /// Appends the edges of a triangle, numbered after those of the boundary.
+  /// Appends the edges of a triangle, numbered after those with a label.
   void append(std::int64_t row, const Corners& corners, std::string& to) const {
     std::int64_t number = first_[static_cast<std::size_t>(row)];
     for (const Side side : sides(corners))
       if (is_listed(side))
         append_line(to, ++number, side[0] + 1, side[1] + 1, std::int64_t{0});
   }
-  /// With those of the boundary.
+  /// With those that have a label.
   std::int64_t total() const { return total_; }
 
 private:
   static std::array<Side, 3> sides(const Corners& corners) {
     return {{{corners[0], corners[1]}, {corners[1], corners[2]}, {corners[2], corners[0]}}};
   }
-  /// Facets and triangles have the mesh on their left: a facet is a side in the same direction. Edges on curves are
-  /// sides in both directions.
+  /// Facets and triangles have the mesh on their left: a facet is a side in the same direction. Labelled edges inside
+  /// are sides in both directions.
   bool is_listed(const Side& side) const {
-    return side[0] < side[1] && !std::binary_search(facets_.begin(), facets_.end(), side);
+    return side[0] < side[1] && !std::binary_search(labelled_.begin(), labelled_.end(), side);
   }
 
-  std::vector<Side> facets_;
+  std::vector<Side> labelled_;
   std::vector<std::int64_t> first_; // edges listed before those of a triangle of this rank
   std::int64_t total_ = 0;
 };

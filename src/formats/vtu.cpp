@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // VTK's XML unstructured grid (VTK file formats, "Unstructured Grid"), arrays appended as raw binary with 64-bit sizes.
-// Cells are the triangles, then the boundary edges; `label` is 0 on triangles, `region` 0 on edges. Field
+// Cells are the triangles, then the labelled edges; `label` is 0 on triangles, `region` 0 on edges. Field
 // data give the number of each name.
 #include "formats/exchange_mesh.hpp"
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <set>
 
 namespace trime::handover {
 namespace {
@@ -28,6 +29,13 @@ struct Facet {
   GlobalId id, triangle; // the triangle that it belongs to, once that is known
   std::array<GlobalId, 2> ends;
   std::int32_t tag, part;
+};
+/// An edge on a curve or between regions, on its way between ranks.
+struct InnerEdge {
+  GlobalId id;
+  std::array<GlobalId, 2> ends;
+  std::array<std::int32_t, 4> numbers; // the curve; or the regions on the left and right, their pair and the curve
+  std::array<GlobalId, 2> triangles{-1, -1}; // on the left and on the right, once they are known
 };
 /// The data that a ghost gets from its owner.
 struct PointValues {
@@ -56,6 +64,8 @@ public:
     take_home();
     share_triangles();
     join_facets();
+    curve_edges_ = share_inner_edges(listed_curve_edges(), mesh_.curve_slab);
+    interfaces_ = share_inner_edges(listed_interfaces(), mesh_.interface_slab);
     if (overlap_ == Overlap::triangles)
       share_facets();
     else
@@ -63,6 +73,8 @@ public:
     place_points();
     place_triangles();
     place_facets();
+    place_curve_edges();
+    place_interfaces();
     fetch_ghosts();
     return std::move(made_);
   }
@@ -156,6 +168,96 @@ private:
     send_to(comm_, away, foreign_facets_);
   }
 
+  std::vector<InnerEdge> listed_curve_edges() const {
+    std::vector<InnerEdge> edges;
+    for (std::size_t k = 0; k < mesh_.curve_edges.size(); ++k)
+      edges.push_back(
+          {mesh_.curve_slab.first + static_cast<GlobalId>(k), mesh_.curve_edges[k], {mesh_.curve_numbers[k]}});
+    return edges;
+  }
+  std::vector<InnerEdge> listed_interfaces() const {
+    std::vector<InnerEdge> edges;
+    for (std::size_t k = 0; k < mesh_.interfaces.size(); ++k) {
+      const auto [left, right] = mesh_.interface_regions[k];
+      edges.push_back({mesh_.interface_slab.first + static_cast<GlobalId>(k),
+                       mesh_.interfaces[k],
+                       {left, right, mesh_.interface_pairs[k], mesh_.interface_curves[k]}});
+    }
+    return edges;
+  }
+
+  /// Edges inside to all ranks that hold a triangle of theirs. The owner of the lower end finds the triangles, since it
+  /// knows all those around its points.
+  std::vector<InnerEdge> share_inner_edges(const std::vector<InnerEdge>& listed, const mesh::Slab& slab) const {
+    std::vector<InnerEdge> edges, shared;
+    if (slab.total == 0)
+      return edges;
+    Outbox<InnerEdge> home;
+    for (const InnerEdge& edge : listed)
+      home[owner(std::min(edge.ends[0], edge.ends[1]))].push_back(edge);
+    send_to(comm_, home, edges);
+    std::sort(edges.begin(), edges.end(), [](const InnerEdge& a, const InnerEdge& b) { return a.ends < b.ends; });
+    Outbox<InnerEdge> away;
+    const std::vector<std::set<int>> holders = join_triangles(edges);
+    for (std::size_t k = 0; k < edges.size(); ++k)
+      for (const int holder : holders[k])
+        away[holder].push_back(edges[k]);
+    send_to(comm_, away, shared);
+    std::stable_partition(shared.begin(), shared.end(),
+                          [&](const InnerEdge& edge) { return find(owned_, edge.triangles[0]) >= 0; });
+    return shared;
+  }
+
+  /// Sets the triangles of edges that are sorted by their ends. Returns the ranks that will hold one of these
+  /// triangles.
+  std::vector<std::set<int>> join_triangles(std::vector<InnerEdge>& edges) const {
+    std::vector<char> has_edge(mesh_.points.size(), 0);
+    for (const InnerEdge& edge : edges)
+      has_edge[static_cast<std::size_t>(std::min(edge.ends[0], edge.ends[1]) - mesh_.point_slab.first)] = 1;
+    std::vector<std::set<int>> holders(edges.size());
+    std::size_t joined = 0;
+    const auto join_side = [&](const Triangle& triangle, const std::array<GlobalId, 2>& ends, std::size_t side) {
+      const auto edge =
+          std::lower_bound(edges.begin(), edges.end(), ends,
+                           [](const InnerEdge& e, const std::array<GlobalId, 2>& s) { return e.ends < s; });
+      if (edge == edges.end() || edge->ends != ends)
+        return;
+      edge->triangles[side] = triangle.id;
+      ++joined;
+      std::set<int>& ranks = holders[static_cast<std::size_t>(edge - edges.begin())];
+      for (std::size_t k = 0; k < (overlap_ == Overlap::triangles ? 3U : 1U); ++k)
+        ranks.insert(owner(triangle.vertices[k]));
+    };
+    for (const std::vector<Triangle>* list : {&owned_, &foreign_})
+      for (const Triangle& triangle : *list)
+        for (std::size_t k = 0; k < 3; ++k) {
+          const GlobalId from = triangle.vertices[k], to = triangle.vertices[(k + 1) % 3], lower = std::min(from, to);
+          if (!is_owned(lower) || has_edge[static_cast<std::size_t>(lower - mesh_.point_slab.first)] == 0)
+            continue;
+          join_side(triangle, {from, to}, 0);
+          join_side(triangle, {to, from}, 1);
+        }
+    comm::run_agreed(comm_, [&] {
+      if (joined != 2 * edges.size())
+        throw InternalError(
+            fmt::format("the mesh has {} edges on curves or between regions at the points of this rank; "
+                        "expected {} triangles next to them, found {}: it cannot be handed over",
+                        edges.size(), 2 * edges.size(), joined));
+    });
+    return holders;
+  }
+
+  /// Returns the index of a triangle in a list, or -1.
+  static LocalIndex find(const std::vector<Triangle>& list, GlobalId id) {
+    const LocalIndex found = place(list, id);
+    return found < std::ssize(list) && list[at(found)].id == id ? found : -1;
+  }
+  /// Returns the local index of a triangle, or -1.
+  LocalIndex local_triangle(GlobalId id) const {
+    const LocalIndex own = find(owned_, id), other = own < 0 ? find(foreign_, id) : -1;
+    return own >= 0 ? own : other >= 0 ? made_.owned_triangles + other : -1;
+  }
+
   /// Returns the index of a triangle in a list that has it.
   static LocalIndex place(const std::vector<Triangle>& list, GlobalId id) {
     const auto found = std::lower_bound(list.begin(), list.end(), id,
@@ -218,6 +320,26 @@ private:
       add(facet, made_.owned_triangles + place(foreign_, facet.triangle));
   }
 
+  void place_curve_edges() {
+    for (const InnerEdge& edge : curve_edges_) {
+      made_.curve_edges.push_back({local(edge.ends[0]), local(edge.ends[1])});
+      made_.curve_numbers.push_back(edge.numbers[0]);
+      made_.curve_triangles.push_back({local_triangle(edge.triangles[0]), local_triangle(edge.triangles[1])});
+      made_.owned_curve_edges += is_owned_here(made_.curve_triangles.back()[0]);
+    }
+  }
+  void place_interfaces() {
+    for (const InnerEdge& edge : interfaces_) {
+      made_.interfaces.push_back({local(edge.ends[0]), local(edge.ends[1])});
+      made_.interface_regions.push_back({edge.numbers[0], edge.numbers[1]});
+      made_.interface_pairs.push_back(edge.numbers[2]);
+      made_.interface_curves.push_back(edge.numbers[3]);
+      made_.interface_triangles.push_back({local_triangle(edge.triangles[0]), local_triangle(edge.triangles[1])});
+      made_.owned_interfaces += is_owned_here(made_.interface_triangles.back()[0]);
+    }
+  }
+  bool is_owned_here(LocalIndex triangle) const { return triangle >= 0 && triangle < made_.owned_triangles; }
+
   /// Owners learn who has ghosts of theirs, and answer by what these need.
   void fetch_ghosts() {
     std::map<int, Neighbour> neighbours;
@@ -249,9 +371,10 @@ private:
   const comm::Communicator& comm_;
   const mesh::DistributedMesh& mesh_;
   Overlap overlap_;
-  std::vector<std::int64_t> firsts_;           // first point of each rank
-  std::vector<Triangle> owned_, foreign_;      // by id
-  std::vector<Facet> facets_, foreign_facets_; // of these
+  std::vector<std::int64_t> firsts_;                // first point of each rank
+  std::vector<Triangle> owned_, foreign_;           // by id
+  std::vector<Facet> facets_, foreign_facets_;      // of these
+  std::vector<InnerEdge> curve_edges_, interfaces_; // of both; those of owned triangles on the left come first
   LocalMesh made_;
 };
 
@@ -259,63 +382,6 @@ private:
 
 LocalMesh make_local_mesh(const comm::Communicator& comm, const mesh::DistributedMesh& mesh, Overlap overlap) {
   return LocalMeshMaker(comm, mesh, overlap).make();
-}
-
-namespace {
-
-void check_length(const LocalMesh& mesh, std::span<const double> values, int components) {
-  TRIME_ASSERT(components > 0 && values.size() == mesh.points.size() * static_cast<std::size_t>(components),
-               "expected {} values for each of {} local points, found {}", components, mesh.points.size(),
-               values.size());
-}
-
-/// The values of the ghosts of a neighbour.
-std::span<double> ghosts_of(const Neighbour& neighbour, std::span<double> values, std::size_t components) {
-  return values.subspan(at(neighbour.first_ghost) * components, at(neighbour.ghosts) * components);
-}
-
-/// Returns room for a message with this number of values.
-comm::Message room(int peer, std::size_t count) {
-  return {peer, std::vector<std::byte>(count * sizeof(double))};
-}
-
-} // namespace
-
-void update_ghosts(const comm::Communicator& comm, const LocalMesh& mesh, std::span<double> values, int components) {
-  check_length(mesh, values, components);
-  const auto width = static_cast<std::size_t>(components);
-  std::vector<comm::Message> outgoing, incoming;
-  std::vector<double> shared;
-  for (const Neighbour& neighbour : mesh.neighbours) {
-    shared.clear();
-    for (const LocalIndex point : neighbour.send) {
-      const auto own = values.subspan(at(point) * width, width);
-      shared.insert(shared.end(), own.begin(), own.end());
-    }
-    outgoing.push_back({neighbour.rank, comm::to_bytes(std::span<const double>(shared))});
-    incoming.push_back(room(neighbour.rank, at(neighbour.ghosts) * width));
-  }
-  comm.exchange_known(outgoing, incoming);
-  for (std::size_t k = 0; k < incoming.size(); ++k)
-    std::ranges::copy(comm::from_bytes<double>(incoming[k].data), ghosts_of(mesh.neighbours[k], values, width).begin());
-}
-
-void add_to_owners(const comm::Communicator& comm, const LocalMesh& mesh, std::span<double> values, int components) {
-  check_length(mesh, values, components);
-  const auto width = static_cast<std::size_t>(components);
-  std::vector<comm::Message> outgoing, incoming;
-  for (const Neighbour& neighbour : mesh.neighbours) {
-    outgoing.push_back({neighbour.rank, comm::to_bytes(std::span<const double>(ghosts_of(neighbour, values, width)))});
-    incoming.push_back(room(neighbour.rank, neighbour.send.size() * width));
-  }
-  comm.exchange_known(outgoing, incoming);
-  for (std::size_t k = 0; k < incoming.size(); ++k) {
-    const std::vector<double> shared = comm::from_bytes<double>(incoming[k].data);
-    const std::vector<LocalIndex>& points = mesh.neighbours[k].send;
-    for (std::size_t i = 0; i < points.size(); ++i)
-      for (std::size_t c = 0; c < width; ++c)
-        values[at(points[i]) * width + c] += shared[i * width + c];
-  }
 }
 
 } // namespace trime::handover

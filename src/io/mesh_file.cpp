@@ -2,6 +2,7 @@
 #include "trime/io/mesh_file.hpp"
 
 #include "comm/agree.hpp"
+#include "io/labelled_lines.hpp"
 #include "io/slab_file.hpp"
 #include "io/temporary_file.hpp"
 #include "io/xdmf.hpp"
@@ -208,6 +209,35 @@ void write_curves(SlabFile& file, const mesh::DistributedMesh& mesh, std::size_t
                                    }));
 }
 
+/// Edges between regions; `labels` as the formats of other programs count them, after those of the curves.
+void write_interfaces(SlabFile& file, const mesh::DistributedMesh& mesh, std::size_t parts_and_curves) {
+  const mesh::Slab& slab = mesh.interface_slab;
+  if (slab.total == 0)
+    return;
+  file.group("/Mesh/interfaces");
+  file.slab(stored<std::int64_t>("/Mesh/interfaces/topology", slab, 2, mesh.interfaces));
+  file.slab(stored<std::int32_t>("/Mesh/interfaces/regions", slab, 2, mesh.interface_regions));
+  file.slab(stored<std::int32_t>("/Mesh/interfaces/values", slab, 0, mesh.interface_pairs));
+  file.slab(stored<std::int32_t>("/Mesh/interfaces/curves", slab, 0, mesh.interface_curves));
+  file.slab(computed<std::int32_t>("/Mesh/interfaces/labels", slab, std::ssize(mesh.interfaces),
+                                   [&mesh, parts_and_curves](std::int64_t row) {
+                                     const auto k = static_cast<std::size_t>(row - mesh.interface_slab.first);
+                                     return static_cast<std::int32_t>(parts_and_curves) + mesh.interface_pairs[k] + 1;
+                                   }));
+}
+
+/// Returns whether there are labelled edges that are not facets.
+bool has_inner_edges(const mesh::DistributedMesh& mesh) {
+  return mesh.curve_slab.total > 0 || mesh.interface_slab.total > 0;
+}
+
+/// All labelled edges, each once, since a program may read only one list of them. @param lines outlive the file
+void write_lines(SlabFile& file, const LabelledLines& lines) {
+  file.group("/Mesh/lines");
+  file.slab(stored<std::int64_t>("/Mesh/lines/topology", lines.slab, 2, lines.ends));
+  file.slab(stored<std::int32_t>("/Mesh/lines/labels", lines.slab, 0, lines.labels));
+}
+
 void write_metadata(SlabFile& file, const Metadata& metadata) {
   file.group("/trime_mpi");
   for (const Attribute& attribute : metadata.attributes)
@@ -240,9 +270,11 @@ bool has_plain_mesh(const MeshFileOptions& options) {
 std::int64_t file_bytes(const MeshFileOptions& options, const mesh::DistributedMesh& mesh, const Metadata& metadata) {
   const std::int64_t vtkhdf = options.vtkhdf ? 1 : 0, plain = has_plain_mesh(options) ? 1 : 0;
   const std::int64_t per_point = 9 + 24 * vtkhdf + 16 * plain, per_triangle = 12 + 33 * vtkhdf + 24 * plain;
-  constexpr std::int64_t headers = 64 << 10, per_facet = 32;
+  constexpr std::int64_t headers = 64 << 10, per_facet = 32, per_line = 20, per_inner_edge = 56;
   std::int64_t bytes = headers + per_point * mesh.point_slab.total + per_triangle * mesh.triangle_slab.total +
-                       per_facet * (mesh.facet_slab.total + mesh.curve_slab.total);
+                       per_facet * mesh.facet_slab.total +
+                       per_inner_edge * (mesh.curve_slab.total + mesh.interface_slab.total) +
+                       (has_inner_edges(mesh) ? per_line * mesh.facet_slab.total : 0);
   for (const Text& text : metadata.texts)
     bytes += static_cast<std::int64_t>(text.text.size());
   for (const MetadataGroup& group : metadata.groups)
@@ -252,9 +284,12 @@ std::int64_t file_bytes(const MeshFileOptions& options, const mesh::DistributedM
   return bytes + bytes / 16; // alignment of large arrays
 }
 
-void write_hdf5(const std::string& path, const MeshFileOptions& options, const mesh::DistributedMesh& mesh,
-                const Metadata& metadata, const comm::Communicator& comm) {
+/// Returns the number of labelled edges.
+std::int64_t write_hdf5(const std::string& path, const MeshFileOptions& options, const mesh::DistributedMesh& mesh,
+                        const Metadata& metadata, const comm::Communicator& comm) {
   const auto markers = facet_markers(options, mesh);
+  const std::size_t parts = options.part_markers.size(), curves = curve_names(metadata).size();
+  const LabelledLines lines = has_inner_edges(mesh) ? labelled_lines(mesh, parts, curves, comm) : LabelledLines{};
   SlabFile file(comm, path, file_bytes(options, mesh, metadata));
   file.group("/Mesh");
   if (options.vtkhdf)
@@ -263,11 +298,15 @@ void write_hdf5(const std::string& path, const MeshFileOptions& options, const m
   if (has_plain_mesh(options))
     write_plain_mesh(file, mesh);
   write_facets(file, mesh, markers);
-  write_curves(file, mesh, options.part_markers.size());
+  write_curves(file, mesh, parts);
+  write_interfaces(file, mesh, parts + curves);
+  if (has_inner_edges(mesh))
+    write_lines(file, lines);
   write_metadata(file, metadata);
   write_ranks(file, mesh, comm);
   file.verify();
   file.close();
+  return has_inner_edges(mesh) ? lines.slab.total : mesh.facet_slab.total;
 }
 
 void check_shapes(const mesh::DistributedMesh& mesh) {
@@ -283,12 +322,19 @@ void check_shapes(const mesh::DistributedMesh& mesh) {
                    mesh.facet_sizes.size() == facets,
                "the arrays of facets have different lengths: {} facets, {} tags, {} parts, {} sizes", facets,
                mesh.facet_tags.size(), mesh.facet_parts.size(), mesh.facet_sizes.size());
+  const std::size_t interfaces = mesh.interfaces.size();
+  TRIME_ASSERT(mesh.curve_numbers.size() == mesh.curve_edges.size() && mesh.interface_regions.size() == interfaces &&
+                   mesh.interface_pairs.size() == interfaces && mesh.interface_curves.size() == interfaces,
+               "the arrays of inner edges have different lengths: {} edges on curves, {} curves, {} interfaces, {} "
+               "regions, {} pairs, {} curves",
+               mesh.curve_edges.size(), mesh.curve_numbers.size(), interfaces, mesh.interface_regions.size(),
+               mesh.interface_pairs.size(), mesh.interface_curves.size());
 }
 
 /// Rank 0: final names, and the views that belong to them.
-WrittenFiles publish(TemporaryFile& temporary, const MeshFileOptions& options, const mesh::DistributedMesh& mesh) {
+WrittenFiles publish(TemporaryFile& temporary, const MeshFileOptions& options, const XdmfContent& content) {
   const std::string h5 = options.path(".h5"), xdmf = options.path(".xdmf"), vtkhdf = options.path(".vtkhdf"),
-                    facets = options.path(".xmf");
+                    lines = options.path(".xmf");
   temporary.rename_to(h5, options.overwrite);
   if (options.is_final && options.run_files)
     options.run_files->set_final_mesh_written();
@@ -297,21 +343,14 @@ WrittenFiles publish(TemporaryFile& temporary, const MeshFileOptions& options, c
   if (stat(h5.c_str(), &status) == 0)
     written.bytes = status.st_size;
   // Views of an older mesh of this name would lie about the new one.
-  for (const std::string& path : {xdmf, vtkhdf, facets})
+  for (const std::string& path : {xdmf, vtkhdf, lines})
     unlink(path.c_str());
   if (options.xdmf) {
-    const XdmfContent content{options.name + ".h5",
-                              field_group(options, "CellData"),
-                              field_group(options, "PointData"),
-                              mesh.point_slab.total,
-                              mesh.triangle_slab.total,
-                              mesh.facet_slab.total,
-                              0};
     write_one_text_file(xdmf, xdmf_text(content), options.run_files);
     written.paths.push_back(xdmf);
-    if (mesh.facet_slab.total > 0) { // a torus has none
-      write_one_text_file(facets, xdmf_facets_text(content), options.run_files);
-      written.paths.push_back(facets);
+    if (content.lines > 0) { // a torus may have none
+      write_one_text_file(lines, xdmf_facets_text(content), options.run_files);
+      written.paths.push_back(lines);
     }
   }
   if (options.vtkhdf) {
@@ -338,11 +377,20 @@ WrittenFiles write_mesh(const MeshFileOptions& options, const mesh::DistributedM
     if (comm.is_root())
       temporary.emplace(path, options.run_files);
   });
-  write_hdf5(path, options, mesh, of_root, comm);
+  const std::int64_t lines = write_hdf5(path, options, mesh, of_root, comm);
+  const XdmfContent content{options.name + ".h5",
+                            field_group(options, "CellData"),
+                            field_group(options, "PointData"),
+                            mesh.point_slab.total,
+                            mesh.triangle_slab.total,
+                            lines,
+                            0,
+                            has_inner_edges(mesh),
+                            has_regions(of_root)};
   WrittenFiles written;
   comm::run_agreed(comm, [&] {
     if (temporary)
-      written = publish(*temporary, options, mesh);
+      written = publish(*temporary, options, content);
   });
   return written;
 }

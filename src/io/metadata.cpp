@@ -171,4 +171,13 @@ std::vector<std::string> curve_names(const Metadata& metadata) {
                                                    : column_of<std::string>(metadata, "curves", "curve_name");
 }
 
+std::vector<std::string> interface_names(const Metadata& metadata) {
+  return has_regions(metadata) ? column_of<std::string>(metadata, "interfaces", "pair_name")
+                               : std::vector<std::string>();
+}
+
+bool has_regions(const Metadata& metadata) {
+  return find_group(metadata, "interfaces") != nullptr;
+}
+
 } // namespace trime::io

@@ -37,12 +37,8 @@ public:
     read_rows("/Mesh/facets/asked_size", H5T_NATIVE_FLOAT, 0, mesh.facet_slab, mesh.facet_sizes);
     check_ids(triangles, mesh);
     check_ids(mesh.facets, mesh);
-    if (!file_.has("/Mesh/curves/topology"))
-      return;
-    mesh.curve_slab = share(file_.rows("/Mesh/curves/topology"), comm_);
-    read_rows("/Mesh/curves/topology", H5T_NATIVE_INT64, 2, mesh.curve_slab, mesh.curve_edges);
-    read_rows("/Mesh/curves/values", H5T_NATIVE_INT32, 0, mesh.curve_slab, mesh.curve_numbers);
-    check_ids(mesh.curve_edges, mesh);
+    read_curves(mesh);
+    read_interfaces(mesh);
   }
 
 private:
@@ -51,6 +47,27 @@ private:
     const std::int64_t count = rows_of(slab, comm_);
     rows.resize(static_cast<std::size_t>(count));
     file_.read(dataset, type, columns, slab.first, count, rows.data());
+  }
+
+  void read_curves(mesh::DistributedMesh& mesh) const {
+    if (!file_.has("/Mesh/curves/topology"))
+      return;
+    mesh.curve_slab = share(file_.rows("/Mesh/curves/topology"), comm_);
+    read_rows("/Mesh/curves/topology", H5T_NATIVE_INT64, 2, mesh.curve_slab, mesh.curve_edges);
+    read_rows("/Mesh/curves/values", H5T_NATIVE_INT32, 0, mesh.curve_slab, mesh.curve_numbers);
+    check_ids(mesh.curve_edges, mesh);
+  }
+
+  void read_interfaces(mesh::DistributedMesh& mesh) const {
+    if (!file_.has("/Mesh/interfaces/topology"))
+      return;
+    mesh::Slab& slab = mesh.interface_slab;
+    slab = share(file_.rows("/Mesh/interfaces/topology"), comm_);
+    read_rows("/Mesh/interfaces/topology", H5T_NATIVE_INT64, 2, slab, mesh.interfaces);
+    read_rows("/Mesh/interfaces/regions", H5T_NATIVE_INT32, 2, slab, mesh.interface_regions);
+    read_rows("/Mesh/interfaces/values", H5T_NATIVE_INT32, 0, slab, mesh.interface_pairs);
+    read_rows("/Mesh/interfaces/curves", H5T_NATIVE_INT32, 0, slab, mesh.interface_curves);
+    check_ids(mesh.interfaces, mesh);
   }
 
   std::string field(const char* group, const char* name) const {

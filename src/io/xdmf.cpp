@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <utility>
+
 namespace trime::io {
 namespace {
 
@@ -63,9 +66,12 @@ std::string topology(const XdmfContent& content, const std::string& type, int co
 std::string grid(const XdmfContent& content, const std::string& extra) {
   std::string text = fmt::format("<Grid Name=\"mesh\" GridType=\"Uniform\">\n{}{}", extra,
                                  topology(content, "Triangle", 3, content.triangles, "mesh"));
-  for (const Field& field :
-       {Field{"alpha", "Cell", "Float", 4}, Field{"beta", "Cell", "Float", 4}, Field{"region", "Cell", "Int", 4},
-        Field{"boundary", "Node", "Int", 4}, Field{"size", "Node", "Float", 4}, Field{"fixed", "Node", "UChar", 1}})
+  std::array fields{Field{"alpha", "Cell", "Float", 4}, Field{"beta", "Cell", "Float", 4},
+                    Field{"region", "Cell", "Int", 4},  Field{"boundary", "Node", "Int", 4},
+                    Field{"size", "Node", "Float", 4},  Field{"fixed", "Node", "UChar", 1}};
+  if (content.has_regions) // dolfinx reads the first one as tags of the cells
+    std::swap(fields[0], fields[2]);
+  for (const Field& field : fields)
     text += attribute(content, field);
   return text + "</Grid>";
 }
@@ -78,16 +84,17 @@ std::string xdmf_text(const XdmfContent& content) {
   return header + grid(content, "") + "</Domain></Xdmf>\n";
 }
 
-/// Returns the text of a separate file for the facets, since meshio refuses a second grid. It is NAME.xmf, since
-/// dolfinx looks for arrays in the file of the same name with the ending .h5. dolfinx takes the first attribute of the
-/// grid.
+/// Returns the text of a separate file for the labelled edges, since meshio refuses a second grid. It is NAME.xmf,
+/// since dolfinx looks for arrays in the file of the same name with the ending .h5. dolfinx takes the first attribute
+/// of the grid.
 std::string xdmf_facets_text(const XdmfContent& content) {
+  const char* group = content.has_inner_lines ? "lines" : "facets";
   return fmt::format("{}<Grid Name=\"facets\" GridType=\"Uniform\">\n{}"
                      " <Attribute Name=\"labels\" AttributeType=\"Scalar\" Center=\"Cell\">\n"
                      "  <DataItem Dimensions=\"{}\" NumberType=\"Int\" Precision=\"4\" Format=\"HDF\">"
-                     "{}:/Mesh/facets/labels</DataItem></Attribute>\n</Grid></Domain></Xdmf>\n",
-                     header, topology(content, "Polyline", 2, content.facets, "facets"), content.facets,
-                     escaped(content.file));
+                     "{}:/Mesh/{}/labels</DataItem></Attribute>\n</Grid></Domain></Xdmf>\n",
+                     header, topology(content, "Polyline", 2, content.lines, group), content.lines,
+                     escaped(content.file), group);
 }
 
 std::string xdmf_series_text(std::span<const XdmfContent> meshes) {

@@ -243,6 +243,8 @@ io::MetadataGroup tags_group(const Origin& origin, const std::vector<polygon::Lo
   using polygon::LoopSummary;
   std::vector<std::int32_t> part_ids(origin.part_names.size());
   std::iota(part_ids.begin(), part_ids.end(), 0);
+  std::vector<std::int32_t> region_ids(origin.regions.names.size());
+  std::iota(region_ids.begin(), region_ids.end(), 1);
   return {"tags",
           {},
           {column<std::int32_t>("edge_id", loops, &LoopSummary::tag),
@@ -253,8 +255,8 @@ io::MetadataGroup tags_group(const Origin& origin, const std::vector<polygon::Lo
            {"part_id", part_ids},
            {"part_name", origin.part_names},
            {"part_marker", origin.part_markers},
-           {"region_id", std::vector<std::int32_t>{1}},
-           {"region_name", std::vector<std::string>{origin.region}}}};
+           {"region_id", region_ids},
+           {"region_name", origin.regions.names}}};
 }
 
 mesh::Checks checks_of(const io::Metadata& metadata) {
@@ -271,13 +273,39 @@ mesh::Checks checks_of(const io::Metadata& metadata) {
   return checks;
 }
 
-io::Metadata with_curves(io::Metadata metadata, const Origin& origin) {
-  if (origin.curve_names.empty())
-    return metadata;
-  std::vector<std::int32_t> ids(origin.curve_names.size()), labels(ids);
+namespace {
+
+/// The table of the interfaces: columns pair_id, pair_name, left, right and label.
+io::MetadataGroup interfaces_group(const Origin& origin) {
+  const geometry::Regions& regions = origin.regions;
+  std::vector<std::int32_t> ids(regions.pairs.size()), labels(ids);
+  std::vector<std::string> names;
+  for (std::size_t pair = 0; pair < ids.size(); ++pair)
+    names.push_back(regions.pair_name(pair));
   std::iota(ids.begin(), ids.end(), 0);
-  std::iota(labels.begin(), labels.end(), static_cast<std::int32_t>(origin.part_names.size()) + 1);
-  metadata.groups.push_back({"curves", {}, {{"curve_id", ids}, {"curve_name", origin.curve_names}, {"label", labels}}});
+  std::iota(labels.begin(), labels.end(),
+            static_cast<std::int32_t>(origin.part_names.size() + origin.curve_names.size()) + 1);
+  return {"interfaces",
+          {},
+          {{"pair_id", ids},
+           {"pair_name", names},
+           column<std::int32_t>("left", regions.pairs, [](const std::array<int, 2>& pair) { return pair[0] + 1; }),
+           column<std::int32_t>("right", regions.pairs, [](const std::array<int, 2>& pair) { return pair[1] + 1; }),
+           {"label", labels}}};
+}
+
+} // namespace
+
+io::Metadata with_inner_edges(io::Metadata metadata, const Origin& origin) {
+  if (!origin.curve_names.empty()) {
+    std::vector<std::int32_t> ids(origin.curve_names.size()), labels(ids);
+    std::iota(ids.begin(), ids.end(), 0);
+    std::iota(labels.begin(), labels.end(), static_cast<std::int32_t>(origin.part_names.size()) + 1);
+    metadata.groups.push_back(
+        {"curves", {}, {{"curve_id", ids}, {"curve_name", origin.curve_names}, {"label", labels}}});
+  }
+  if (origin.regions.any())
+    metadata.groups.push_back(interfaces_group(origin));
   return metadata;
 }
 
@@ -303,11 +331,17 @@ SizeRange size_range(const mesh::DistributedMesh& mesh, const comm::Communicator
   return range;
 }
 
+geometry::Regions named(geometry::Regions regions, const std::string& geometry) {
+  if (regions.names.empty())
+    regions.names = {geometry};
+  return regions;
+}
+
 Origin origin_of(const shape::RegionShape& shape) {
   const geometry::Boundary& boundary = shape.boundary();
   return {boundary.part_names,
           shape.domain().part_markers(),
-          shape.region().text(),
+          named(shape.domain().regions(), shape.region().text()),
           {boundary.periods.x, boundary.periods.y},
           {},
           shape.domain().curves().names};
@@ -323,7 +357,7 @@ io::Metadata describe(const meshing::MeshResult& result, const Origin& origin, c
                         {"smallest_size", sizes.smallest},
                         {"largest_size", sizes.largest},
                         {"complete", std::int64_t{is_complete(result)}}};
-  return with_curves({joined({format_attributes(), made, place_attributes(origin),
+  return with_inner_edges({joined({format_attributes(), made, place_attributes(origin),
                               mesh_attributes(result.mesh, result.triangulations + 1), result_attributes(result)}),
                       {},
                       {history_group(result.history), quality_group(result.quality), checks_group(result.checks),

@@ -49,8 +49,9 @@ io::MetadataGroup bad_triangles_group(const mesh::QualitySummary& quality);
 /// Returns the tables that explain the numbers in /Mesh/facets: the array `values` contains edge_id, the array `parts`
 /// part_id.
 io::MetadataGroup tags_group(const Origin& origin, const std::vector<polygon::LoopSummary>& loops);
-/// Adds the table that explains the numbers in /Mesh/curves if there are curves: the array `values` contains curve_id.
-io::Metadata with_curves(io::Metadata metadata, const Origin& origin);
+/// Adds the tables that explain the numbers in /Mesh/curves and /Mesh/interfaces, if there are curves and regions: the
+/// arrays `values` contain curve_id and pair_id.
+io::Metadata with_inner_edges(io::Metadata metadata, const Origin& origin);
 /// Returns the table of corners at which small angles cannot be avoided.
 io::MetadataGroup sharp_corners_group(const std::vector<boundary::SharpCorner>& corners);
 /// Returns the table of the loops of the given shape.

@@ -21,13 +21,14 @@ using geometry::Vec2;
 /// Numbers of all ranks, which are sums of those of each rank.
 struct Counts {
   std::int64_t points = 0, triangles = 0, edges = 0, listings = 0, segments = 0;
-  std::int64_t not_positive = 0, not_delaunay = 0, incomplete = 0, unused = 0, corners = 0, fixed_inside = 0;
+  std::int64_t not_positive = 0, not_delaunay = 0, incomplete = 0, unused = 0, corners = 0, fixed_inside = 0,
+               interfaces = 0;
   ExactArea area;
 
   void add(const comm::Communicator& comm) {
-    const std::array<std::int64_t*, 11> members{&points,   &triangles,    &edges,        &listings,
+    const std::array<std::int64_t*, 12> members{&points,   &triangles,    &edges,        &listings,
                                                 &segments, &not_positive, &not_delaunay, &incomplete,
-                                                &unused,   &corners,      &fixed_inside};
+                                                &unused,   &corners,      &fixed_inside, &interfaces};
     std::array<std::int64_t, members.size() + 3> sums;
     std::ranges::transform(members, sums.begin(), [](const std::int64_t* member) { return *member; });
     std::ranges::copy(area.split(), sums.begin() + members.size());
@@ -50,6 +51,7 @@ public:
 
   BoundaryWalk walk() const;
   Counts count() const;
+  std::vector<RegionSum> region_sums() const; ///< of all ranks
   mesh::QualitySummary measure(const BoundaryWalk& walk);
 
 private:
@@ -63,6 +65,7 @@ private:
   bool is_delaunay(LocalIndex edge) const;
   void count_points(Counts& counts) const;
   std::int64_t count_segments() const;
+  std::int64_t count_interfaces() const;
 
   const comm::Communicator& comm_;
   const geometry::Frame& frame_;
@@ -159,8 +162,42 @@ Counts Inspector::count() const {
       static_cast<std::int64_t>(thread_sum(at(edges_.owned()), [&](std::size_t edge) -> std::uint64_t {
         return is_delaunay(static_cast<LocalIndex>(edge)) ? 0 : 1;
       }));
+  counts.interfaces = count_interfaces();
   counts.add(comm_);
   return counts;
+}
+
+std::int64_t Inspector::count_interfaces() const {
+  if (local_.regions.empty())
+    return 0;
+  std::int64_t count = 0;
+  for (LocalIndex edge = 0; edge < edges_.owned(); ++edge) {
+    const auto& [one, other] = edges_.triangles(edge);
+    count += one >= 0 && other >= 0 && local_.regions[at(one)] != local_.regions[at(other)];
+  }
+  return count;
+}
+
+std::vector<RegionSum> Inspector::region_sums() const {
+  const auto region = [&](LocalIndex t) { return local_.regions.empty() ? 1 : local_.regions[at(t)]; };
+  std::int64_t last = 1;
+  for (LocalIndex t = 0; t < local_.owned_triangles; ++t)
+    last = std::max<std::int64_t>(last, region(t));
+  const auto regions = static_cast<std::size_t>(comm_.max(last));
+  std::vector<ExactArea> areas(regions);
+  std::vector<std::int64_t> sums(4 * regions); // triangles, then the area in three parts
+  for (LocalIndex t = 0; t < local_.owned_triangles; ++t) {
+    const std::array<Vec2, 3> p = corners(t);
+    areas[at(region(t) - 1)].add_triangle(p[0], p[1], p[2], frame_.lattice());
+    ++sums[4 * at(region(t) - 1)];
+  }
+  for (std::size_t k = 0; k < regions; ++k)
+    std::ranges::copy(areas[k].split(), sums.begin() + static_cast<std::ptrdiff_t>(4 * k + 1));
+  comm_.sum(sums);
+  std::vector<RegionSum> made;
+  for (std::size_t k = 0; k < 4 * regions; k += 4)
+    made.push_back({sums[k], ExactArea::join({sums[k + 1], sums[k + 2], sums[k + 3]}).value(frame_.lattice())});
+  return made;
 }
 
 mesh::QualitySummary Inspector::measure(const BoundaryWalk& walk) {
@@ -240,6 +277,10 @@ mesh::Checks checks_of(const Counts& counts, const BoundaryWalk& walk, const Exp
   if (expected.fixed_inside > 0)
     checks.push_back(check("fixed_points", expected.fixed_inside, counts.fixed_inside,
                            "fixed points inside that are vertices; expected is the number in the refined mesh"));
+  if (expected.interfaces > 0 || counts.interfaces > 0)
+    checks.push_back(check("interfaces", expected.interfaces, counts.interfaces,
+                           "edges between triangles of different regions; expected: twice the interfaces of the mesh "
+                           "that was refined"));
   return checks;
 }
 
@@ -253,7 +294,8 @@ Inspection inspect(const comm::Communicator& comm, const geometry::Frame& frame,
     walk.area.twice =
         certificate::Int128{2} * frame.lattice().steps(frame.periods().x) * frame.lattice().steps(frame.periods().y);
   const Counts counts = inspector.count();
-  return {inspector.measure(walk), checks_of(counts, walk, expected, mesh, frame.lattice()), std::move(walk.loops)};
+  return {inspector.measure(walk), checks_of(counts, walk, expected, mesh, frame.lattice()), std::move(walk.loops),
+          inspector.region_sums()};
 }
 
 } // namespace trime::refinement

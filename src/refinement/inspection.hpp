@@ -7,6 +7,7 @@
 #include "trime/mesh/distributed_mesh.hpp"
 #include "trime/mesh/quality.hpp"
 #include "trime/polygon/loop_summary.hpp"
+#include "trime/refinement/refine.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -19,6 +20,7 @@ struct ExpectedCounts {
   std::int64_t euler_characteristic = 0;
   std::int64_t corners = 0;      ///< points on the boundary that are fixed
   std::int64_t fixed_inside = 0; ///< fixed points inside
+  std::int64_t interfaces = 0;   ///< edges between triangles of different regions
 };
 
 /// Quality, checks and loops of a mesh, computed from its arrays.
@@ -26,6 +28,7 @@ struct Inspection {
   mesh::QualitySummary quality;
   mesh::Checks checks;
   std::vector<polygon::LoopSummary> loops;
+  std::vector<RegionSum> regions; ///< as in Refined
 };
 
 /// @brief Joins the triangles of a mesh again, measures them, and counts what the mesh consists of. Sets `alpha` and

@@ -39,7 +39,13 @@ void check_room(const comm::Communicator& comm, const handover::LocalMesh& mesh,
                                   comm.size() * (largest / most + 1)));
 }
 
-/// Divides triangles and boundary edges, and numbers the new points.
+/// An edge on a curve or between regions, with its numbers.
+struct InnerEdge {
+  std::array<GlobalId, 2> ends;
+  std::array<std::int32_t, 4> numbers;
+};
+
+/// Divides triangles and edges with labels, and numbers the new points.
 class Refiner {
 public:
   Refiner(const comm::Communicator& comm, const mesh::DistributedMesh& mesh, const Surroundings& surroundings)
@@ -54,6 +60,7 @@ public:
     place_points(made);
     divide_facets(made);
     divide_curves(made);
+    divide_interfaces(made);
     divide_triangles(made);
     made.hash = static_cast<std::uint64_t>(comm_.sum(static_cast<std::int64_t>(mesh::partial_hash(made))));
     return made;
@@ -74,7 +81,9 @@ private:
   void place_points(mesh::DistributedMesh& made) const;
   std::vector<float> sizes_of_facets() const;
   void divide_facets(mesh::DistributedMesh& made) const;
+  std::vector<InnerEdge> halves(const std::vector<InnerEdge>& edges) const;
   void divide_curves(mesh::DistributedMesh& made) const;
+  void divide_interfaces(mesh::DistributedMesh& made) const;
   void divide_triangles(mesh::DistributedMesh& made) const;
   std::vector<LocalIndex> sorted(std::span<const Ids> triangles, std::size_t points) const;
 
@@ -222,42 +231,63 @@ void Refiner::divide_facets(mesh::DistributedMesh& made) const {
   made.facet_slab = {comm_.exclusive_scan(std::ssize(halves)), 2 * mesh_.facet_slab.total};
 }
 
-/// Each edge on a curve inside becomes two, which meet in its middle, on the rank that owns its lower end.
-void Refiner::divide_curves(mesh::DistributedMesh& made) const {
-  struct CurveEdge {
-    std::array<GlobalId, 2> ends;
-    std::int64_t curve;
-  };
-  if (mesh_.curve_slab.total == 0)
-    return;
+/// Each edge inside becomes two, which meet in its middle, on the rank that owns its lower end. They are sorted by
+/// their lower end, then by the other one.
+std::vector<InnerEdge> Refiner::halves(const std::vector<InnerEdge>& edges) const {
   const std::vector<std::int64_t> firsts = comm_.all_gather(mesh_.point_slab.first);
-  Outbox<CurveEdge> away;
-  for (std::size_t k = 0; k < mesh_.curve_edges.size(); ++k) {
-    const GlobalId low = std::min(mesh_.curve_edges[k][0], mesh_.curve_edges[k][1]);
-    const auto owner = static_cast<int>(std::ranges::upper_bound(firsts, low) - firsts.begin()) - 1;
-    away[owner].push_back({mesh_.curve_edges[k], mesh_.curve_numbers[k]});
+  Outbox<InnerEdge> away;
+  for (const InnerEdge& edge : edges) {
+    const GlobalId low = std::min(edge.ends[0], edge.ends[1]);
+    away[static_cast<int>(std::ranges::upper_bound(firsts, low) - firsts.begin()) - 1].push_back(edge);
   }
-  std::vector<CurveEdge> halves;
+  std::vector<InnerEdge> halves;
   for (const comm::Message& message : send(comm_, away))
-    for (const CurveEdge& given : comm::from_bytes<CurveEdge>(message.data)) {
+    for (const InnerEdge& given : comm::from_bytes<InnerEdge>(message.data)) {
       const auto [low, high] = std::minmax(given.ends[0], given.ends[1]);
       const auto lower = static_cast<LocalIndex>(low - local_.first_point);
       for (LocalIndex edge = edges_.before(lower); edge < edges_.before(lower + 1); ++edge)
         if (local_.global_id(edges_.upper(edge)) == high) {
           const GlobalId from = ids_[at(given.ends[0] == low ? lower : edges_.upper(edge))],
                          to = ids_[at(given.ends[0] == low ? edges_.upper(edge) : lower)];
-          halves.push_back({{from, id_of_edge(edge)}, given.curve});
-          halves.push_back({{id_of_edge(edge), to}, given.curve});
+          halves.push_back({{from, id_of_edge(edge)}, given.numbers});
+          halves.push_back({{id_of_edge(edge), to}, given.numbers});
         }
     }
-  std::ranges::sort(halves, {}, [](const CurveEdge& half) {
+  std::ranges::sort(halves, {}, [](const InnerEdge& half) {
     return std::array{std::min(half.ends[0], half.ends[1]), std::max(half.ends[0], half.ends[1])};
   });
-  for (const CurveEdge& half : halves) {
+  return halves;
+}
+
+void Refiner::divide_curves(mesh::DistributedMesh& made) const {
+  if (mesh_.curve_slab.total == 0)
+    return;
+  std::vector<InnerEdge> edges;
+  for (std::size_t k = 0; k < mesh_.curve_edges.size(); ++k)
+    edges.push_back({mesh_.curve_edges[k], {mesh_.curve_numbers[k]}});
+  for (const InnerEdge& half : halves(edges)) {
     made.curve_edges.push_back(half.ends);
-    made.curve_numbers.push_back(static_cast<std::int32_t>(half.curve));
+    made.curve_numbers.push_back(half.numbers[0]);
   }
-  made.curve_slab = {comm_.exclusive_scan(std::ssize(halves)), 2 * mesh_.curve_slab.total};
+  made.curve_slab = {comm_.exclusive_scan(std::ssize(made.curve_edges)), 2 * mesh_.curve_slab.total};
+}
+
+/// The halves have the same regions on both sides.
+void Refiner::divide_interfaces(mesh::DistributedMesh& made) const {
+  if (mesh_.interface_slab.total == 0)
+    return;
+  std::vector<InnerEdge> edges;
+  for (std::size_t k = 0; k < mesh_.interfaces.size(); ++k) {
+    const auto [left, right] = mesh_.interface_regions[k];
+    edges.push_back({mesh_.interfaces[k], {left, right, mesh_.interface_pairs[k], mesh_.interface_curves[k]}});
+  }
+  for (const InnerEdge& half : halves(edges)) {
+    made.interfaces.push_back(half.ends);
+    made.interface_regions.push_back({half.numbers[0], half.numbers[1]});
+    made.interface_pairs.push_back(half.numbers[2]);
+    made.interface_curves.push_back(half.numbers[3]);
+  }
+  made.interface_slab = {comm_.exclusive_scan(std::ssize(made.interfaces)), 2 * mesh_.interface_slab.total};
 }
 
 /// Returns the canonical order of triangles. @pre their lowest vertices, which come first, are points of this rank
@@ -323,6 +353,7 @@ ExpectedCounts Refiner::expected() const {
   counts.euler_characteristic = mesh_.point_slab.total - sums[0] + mesh_.triangle_slab.total;
   counts.corners = sums[1];
   counts.fixed_inside = sums[2];
+  counts.interfaces = 2 * mesh_.interface_slab.total;
   return counts;
 }
 
@@ -345,6 +376,7 @@ Refined refine(const comm::Communicator& comm, const mesh::DistributedMesh& mesh
   if (surroundings.limits_edges)
     refined.checks.push_back(extraction::longest_edge_check(refined.quality));
   refined.loops = std::move(inspection.loops);
+  refined.regions = std::move(inspection.regions);
   return refined;
 }
 

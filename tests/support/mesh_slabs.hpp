@@ -4,6 +4,7 @@
 
 #include "core/random.hpp"
 #include "trime/comm/communicator.hpp"
+#include "trime/geometry/boundary.hpp"
 #include "trime/mesh/distributed_mesh.hpp"
 
 #include <algorithm>
@@ -83,6 +84,54 @@ inline mesh::DistributedMesh holed_square(int n) {
   return mesh;
 }
 
+/// @brief Returns a holed square of three regions, which meet at a point: region 1 on the left, 2 and 3 at the bottom
+/// and at the top of the rest. Curve 0 follows the interface between the regions 1 and 2 downwards, and curve 1
+/// consists of edges inside region 1. Each caller gets the whole mesh.
+inline mesh::DistributedMesh divided_square(int n) {
+  mesh::DistributedMesh mesh = holed_square(n);
+  std::map<std::array<GlobalId, 2>, std::int32_t> region_of; // region on the left of a side
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const std::array<GlobalId, 3> ids = mesh.triangle_ids(t);
+    geometry::Vec2 sum{0, 0};
+    for (const GlobalId id : ids)
+      sum = sum + mesh.points[static_cast<std::size_t>(id)];
+    mesh.region[t] = sum.x < 1.2 ? 1 : sum.y < 1.5 ? 2 : 3;
+    for (std::size_t k = 0; k < 3; ++k)
+      region_of[{ids[k], ids[(k + 1) % 3]}] = mesh.region[t];
+  }
+  std::map<std::array<GlobalId, 2>, std::int32_t> curves; // by ends, the lower one first
+  for (GlobalId row = 1; row < n; ++row)
+    curves[{row * (n + 1), row * (n + 1) + 1}] = 1;
+  std::map<std::array<GlobalId, 2>, std::array<GlobalId, 2>> interfaces; // by ends, the lower one first
+  for (const auto& [side, left] : region_of) {
+    const auto other = region_of.find({side[1], side[0]});
+    if (other == region_of.end() || left >= other->second)
+      continue;
+    const std::array<GlobalId, 2> ends{std::min(side[0], side[1]), std::max(side[0], side[1])};
+    interfaces[ends] = side;
+    if (left == 1 && other->second == 2)
+      curves[ends] = 0;
+  }
+  for (const auto& [ends, side] : interfaces) {
+    const std::int32_t left = region_of[side], right = region_of[{side[1], side[0]}];
+    mesh.interfaces.push_back(side);
+    mesh.interface_regions.push_back({left, right});
+    mesh.interface_pairs.push_back(left + right - 3);
+    mesh.interface_curves.push_back(curves.contains(ends) ? 0 : -1);
+  }
+  for (const auto& [ends, number] : curves) {
+    mesh.curve_edges.push_back(number == 0 ? std::array{ends[1], ends[0]} : ends);
+    mesh.curve_numbers.push_back(number);
+  }
+  mesh.curve_slab.total = static_cast<GlobalId>(mesh.curve_edges.size());
+  mesh.interface_slab.total = static_cast<GlobalId>(mesh.interfaces.size());
+  return mesh;
+}
+/// The regions of the divided square. The pairs of regions share interfaces.
+inline geometry::Regions three_regions() {
+  return {{"rest", "rock", "soil"}, {{0, 1}, {0, 2}, {1, 2}}};
+}
+
 /// Returns this rank's part of a whole mesh. Different seeds give different divisions.
 inline mesh::DistributedMesh slabs_of(const mesh::DistributedMesh& whole, const comm::Communicator& comm,
                                       std::uint64_t seed) {
@@ -103,6 +152,15 @@ inline mesh::DistributedMesh slabs_of(const mesh::DistributedMesh& whole, const 
   mesh.facet_tags = cut(whole.facet_tags, mesh.facet_slab, facets);
   mesh.facet_parts = cut(whole.facet_parts, mesh.facet_slab, facets);
   mesh.facet_sizes = cut(whole.facet_sizes, mesh.facet_slab, facets);
+  std::int64_t curve_edges = 0, interfaces = 0;
+  mesh.curve_slab = share(comm, whole.curve_slab.total, seed + 30, curve_edges);
+  mesh.interface_slab = share(comm, whole.interface_slab.total, seed + 40, interfaces);
+  mesh.curve_edges = cut(whole.curve_edges, mesh.curve_slab, curve_edges);
+  mesh.curve_numbers = cut(whole.curve_numbers, mesh.curve_slab, curve_edges);
+  mesh.interfaces = cut(whole.interfaces, mesh.interface_slab, interfaces);
+  mesh.interface_regions = cut(whole.interface_regions, mesh.interface_slab, interfaces);
+  mesh.interface_pairs = cut(whole.interface_pairs, mesh.interface_slab, interfaces);
+  mesh.interface_curves = cut(whole.interface_curves, mesh.interface_slab, interfaces);
   return mesh;
 }
 

@@ -30,13 +30,27 @@ struct Facet {
   bool owned;               ///< whether this rank owns the edge; exactly one rank owns each edge
 };
 
-/// @brief The part of a mesh on one rank: handover::LocalMesh together with the names of the boundary and the
+/// An edge of the mesh inside the shape: on a curve, or between two regions.
+struct InnerEdge {
+  LocalIndex first, second; ///< local indices of the two end points
+  LocalIndex left, right;   ///< local triangles on both sides of first -> second; -1: not on this rank
+  bool owned;               ///< whether this rank owns the edge; exactly one rank owns each edge
+};
+
+/// The names of a mesh; the same on all ranks.
+struct MeshNames {
+  std::vector<std::string> facets;       ///< parts of the boundary, in the order of mesh::DistributedMesh::facet_parts
+  std::vector<std::string> regions{};    ///< names of the regions 1, 2, ...
+  std::vector<std::string> curves{};     ///< curves inside
+  std::vector<std::string> interfaces{}; ///< pairs of regions that touch, such as `rock|soil`
+};
+
+/// @brief The part of a mesh on one rank: handover::LocalMesh together with the names of the mesh and the
 /// communicator. Move-only; may outlive the Mesh from which it was made. Local points are numbered from 0: first the
 /// owned points, then the ghosts, both by ascending global id.
 class LocalMesh {
 public:
-  LocalMesh(handover::LocalMesh arrays, std::vector<std::string> names,
-            std::shared_ptr<const comm::Communicator> communicator)
+  LocalMesh(handover::LocalMesh arrays, MeshNames names, std::shared_ptr<const comm::Communicator> communicator)
       : arrays_(std::move(arrays)), names_(std::move(names)), communicator_(std::move(communicator)) {}
 
   /// All arrays of the local mesh: ghosts and their owners, ids of triangles, neighbouring ranks, tags.
@@ -48,11 +62,19 @@ public:
   LocalIndex owned_triangles() const { return arrays_.owned_triangles; }
   GlobalId global_id(LocalIndex point) const { return arrays_.global_id(point); }
 
-  const std::vector<std::string>& facet_names() const { return names_; }
+  const MeshNames& names() const { return names_; }
+  const std::vector<std::string>& facet_names() const { return names_.facets; }
   /// @brief Returns the boundary edges with this name, including edges of ghost triangles. Cost: O(facets on this
   /// rank). Not collective.
   /// @throws ConfigError for an unknown name; the message lists the known names
   std::vector<Facet> facets(const std::string& name) const;
+  /// @brief Return the edges on the curve, or between the two regions, with this name, in the direction of the curve,
+  /// or with the region that is named first on the left. Edges of ghost triangles are included. Not collective.
+  /// @throws ConfigError for an unknown name; the message lists the known names
+  std::vector<InnerEdge> curve_edges(const std::string& name) const;
+  std::vector<InnerEdge> interfaces(const std::string& name) const;
+  /// Returns the number of the region of a local triangle, from 1.
+  std::int32_t region(LocalIndex triangle) const { return arrays_.regions.empty() ? 1 : arrays_.regions[at(triangle)]; }
 
   /// @brief Sets the values of each ghost to those at its owner.
   /// @param values [local points x components]
@@ -70,7 +92,7 @@ public:
 
 private:
   handover::LocalMesh arrays_;
-  std::vector<std::string> names_;
+  MeshNames names_;
   std::shared_ptr<const comm::Communicator> communicator_; ///< shared with the Mesh, which may be destroyed earlier
 };
 
@@ -128,6 +150,8 @@ public:
   /// Returns the hash of points and triangles, which is the same for any number of ranks and threads.
   std::uint64_t hash() const;
 
+  /// Returns the names of the boundary, the regions, the curves and the interfaces.
+  MeshNames names() const;
   /// Returns the names that facets() accepts, in the order of mesh::DistributedMesh::facet_parts.
   const std::vector<std::string>& facet_names() const;
   /// @brief Returns the boundary edges with this name on this rank, as pairs of global point ids; the interior lies on

@@ -19,7 +19,8 @@ namespace trime::handover {
 enum class Overlap {
   none, ///< no triangles of other ranks: the sums that a rank computes at its ghosts must be sent to the owners, see
         ///< add_to_owners
-  triangles ///< all triangles that touch an owned point, so that all triangles around an owned point are known
+  triangles ///< all triangles that touch an owned point, so that all triangles around an owned point are known, and
+            ///< both triangles of each edge that ends there
 };
 
 /// @brief Another rank that shares points with this one. Both ranks list the shared points in the same order.
@@ -30,7 +31,7 @@ struct Neighbour {
   LocalIndex ghosts = 0;        ///< ... to first_ghost + ghosts - 1
 };
 
-/// @brief One rank's part of a mesh. Each point, triangle and boundary edge of the mesh is owned by exactly one rank; a
+/// @brief One rank's part of a mesh. Each point, triangle and labelled edge of the mesh is owned by exactly one rank; a
 /// rank may own none. Local points are numbered from 0: first the owned points, then the ghosts; both have ascending
 /// global ids, so the ghosts of a neighbour are consecutive. Coordinates are those of the container. In a periodic
 /// container a triangle across the border has vertices on both sides of the container; geometry::Periods::nearest_image
@@ -42,6 +43,7 @@ struct LocalMesh {
   LocalIndex owned_points = 0;    ///< number of owned points; ghosts follow them
   LocalIndex owned_triangles = 0; ///< number of owned triangles; triangles of other ranks follow them
   LocalIndex owned_facets = 0;    ///< number of owned facets; facets of other ranks follow them
+  LocalIndex owned_curve_edges = 0, owned_interfaces = 0; ///< number of owned edges inside; the others follow them
 
   // Arrays with one entry for each local point.
   std::vector<geometry::Vec2> points; ///< [owned + ghosts], length unit of the container
@@ -64,6 +66,19 @@ struct LocalMesh {
   std::vector<std::int32_t> facet_tags;    ///< tag of the boundary loop
   std::vector<std::int32_t> facet_parts; ///< part of the shape that the facet follows: index into Boundary::part_names
 
+  // Arrays with one entry for each edge on a curve, and for each edge between regions, that is a side of a local
+  // triangle. A rank owns the edge if it owns the triangle on the left. A rank may hold one of the two triangles only:
+  // always with Overlap::none if they have different owners; with Overlap::triangles only where both ends of the edge
+  // are ghosts. The other triangle is then -1.
+  std::vector<std::array<LocalIndex, 2>> curve_edges;     ///< local point indices, in the direction of the curve
+  std::vector<std::array<LocalIndex, 2>> curve_triangles; ///< local triangles on the left and right, or -1
+  std::vector<std::int32_t> curve_numbers;                ///< curve: index into geometry::InnerCurves::names
+  std::vector<std::array<LocalIndex, 2>> interfaces;      ///< local point indices; the lower region lies on the left
+  std::vector<std::array<LocalIndex, 2>> interface_triangles; ///< as curve_triangles
+  std::vector<std::array<std::int32_t, 2>> interface_regions; ///< regions on the left and on the right, from 1
+  std::vector<std::int32_t> interface_pairs;                  ///< pair of regions: index into geometry::Regions::pairs
+  std::vector<std::int32_t> interface_curves; ///< curve on which the edge lies, which also lists it; -1: none
+
   std::vector<Neighbour> neighbours; ///< ordered by rank
 
   /// Returns the global id of a local point.
@@ -76,10 +91,10 @@ struct LocalMesh {
 /// A rank owns a consecutive range of points, the triangles whose lowest vertex it owns, and the facets of these
 /// triangles. The mesh may come from a Mesher or from io::read_mesh; it is not needed afterwards.
 /// @param mesh the whole mesh, distributed over all ranks of `comm`
-/// @throws InternalError on all ranks if a facet belongs to no triangle
-/// @note Collective. Makes seven sparse exchanges, and gathers one number per rank. Takes O(n log n) time for n points
-/// on this rank. Memory: 20 bytes per point and 24 per triangle; while it is made, 40 more per triangle. Because
-/// vectors grow by doubling, it may need twice as much.
+/// @throws InternalError on all ranks if a facet belongs to no triangle, or an edge inside not to two
+/// @note Collective. Makes seven sparse exchanges, two more for curves and two for interfaces, and gathers one number
+/// per rank. Takes O(n log n) time for n points on this rank. Memory: 20 bytes per point and 24 per triangle; while it
+/// is made, 40 more per triangle. Because vectors grow by doubling, it may need twice as much.
 LocalMesh make_local_mesh(const comm::Communicator& comm, const mesh::DistributedMesh& mesh,
                           Overlap overlap = Overlap::triangles);
 

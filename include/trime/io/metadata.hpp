@@ -69,6 +69,10 @@ const std::vector<T>& column_of(const Metadata& metadata, const std::string& gro
 
 /// Returns the names of the curves inside the shape; none if the file has no group with them.
 std::vector<std::string> curve_names(const Metadata& metadata);
+/// Returns the names of the pairs of regions that share an interface; none if the file has no group with them.
+std::vector<std::string> interface_names(const Metadata& metadata);
+/// Returns whether the mesh has more than one region.
+bool has_regions(const Metadata& metadata);
 /// Returns the group with this name, or null.
 const MetadataGroup* find_group(const Metadata& metadata, const std::string& name);
 

@@ -38,6 +38,8 @@ struct SizeRange {
 /// @note Collective.
 SizeRange size_range(const mesh::DistributedMesh& mesh, const comm::Communicator& comm);
 
+/// Returns the regions; a shape without named regions is one region, whose name is the expression that joins its parts.
+geometry::Regions named(geometry::Regions regions, const std::string& geometry);
 /// Returns the names and markers of a mesh of this shape.
 Origin origin_of(const shape::RegionShape& shape);
 

@@ -34,20 +34,28 @@ struct BoundaryMiddles {
   std::int64_t refused = 0;    ///< in the middle of the edge, because the triangles would be worse on the curve
 };
 
+/// The triangles of a region.
+struct RegionSum {
+  std::int64_t triangles = 0;
+  double area = 0;
+};
+
 /// The refined mesh.
 struct Refined {
   mesh::DistributedMesh mesh;
   mesh::QualitySummary quality;
   std::vector<polygon::LoopSummary> loops; ///< the loops of its boundary, ordered by tag; `parts` are left empty
   BoundaryMiddles middles;
-  mesh::Checks checks; ///< checks of the arrays: triangles, edges, points, loops and area
+  mesh::Checks checks;            ///< checks of the arrays: triangles, edges, points, loops, interfaces and area
+  std::vector<RegionSum> regions; ///< sums of region 1, 2, ... up to the last one with a triangle
 };
 
 /// @brief Divides each triangle into four, and each boundary edge into two. The vertices of the mesh stay, bit for bit.
 /// The vertex on an inner edge lies in its middle, rounded to the lattice. The vertex on a boundary edge lies on the
 /// curve of the shape, at half its length between the ends of the edge, if that is possible. It lies in the middle of
 /// the edge if a triangle would become bad there, or an edge would not be Delaunay. Target edge lengths are halved.
-/// Regions, tags and parts are those of the divided triangles and edges.
+/// Regions, tags and parts are those of the divided triangles and edges; edges on curves and between regions are
+/// divided in their middles, too, and keep their direction.
 ///
 /// The new points are numbered in the order of the old ones; each old point is followed by the new points on the edges
 /// from it to points with higher numbers, in the order of these. The result does not depend on the number of ranks.

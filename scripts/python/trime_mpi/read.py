@@ -10,6 +10,11 @@ import numpy as np
 from .errors import FileError
 
 
+def no_rows(columns, kind=np.int32):
+    """Returns the default of a member that is an array: one without rows."""
+    return dataclasses.field(default_factory=lambda: np.zeros((0, columns) if columns else 0, kind))
+
+
 @dataclasses.dataclass(frozen=True)
 class Check:
     """A check of the certificate: what it expected, what it found, and what that means."""
@@ -37,9 +42,38 @@ class Boundary:
         return np.unique(self.facets)
 
 
+@dataclasses.dataclass(frozen=True)
+class Curve:
+    """The edges on a curve inside the shape.
+
+    edges [k,2] holds the two vertices of each edge, in the direction of the curve. rows [k] are the rows of these edges
+    in Mesh.curve_edges. label is their label in the formats of other programs.
+    """
+    name: str
+    label: int
+    rows: np.ndarray
+    edges: np.ndarray
+
+    @functools.cached_property
+    def vertices(self):
+        """The ids of the vertices of the edges, each once."""
+        return np.unique(self.edges)
+
+
+@dataclasses.dataclass(frozen=True)
+class Interface(Curve):
+    """The edges between two regions, as for a Curve; rows are those in Mesh.interface_edges.
+
+    left and right are the names of the regions on both sides of each edge. left has the lower number.
+    """
+    left: str
+    right: str
+
+
 @dataclasses.dataclass
 class Mesh:
-    """A triangle mesh of N points, M triangles and B boundary edges. Ids count from 0.
+    """A triangle mesh of N points, M triangles and B boundary edges, with C edges on curves and I edges between regions
+    inside. Ids count from 0.
 
       points        [N,2]      coordinates
       triangles     [M,3]      vertices, counter-clockwise
@@ -52,6 +86,12 @@ class Mesh:
       facet_tags    [B]        tag of the boundary loop, see loops
       facet_parts   [B]        number of the part of the shape, see parts
       facet_size    [B]        wanted edge length
+      curve_edges   [C,2]      vertices of the edges on curves, see curves
+      curve_numbers [C]        number of the curve
+      interface_edges   [I,2]  vertices of the edges between regions, the lower region on the left, see interfaces
+      interface_regions [I,2]  numbers of the regions on the left and on the right
+      interface_pairs   [I]    number of the pair of regions
+      interface_curves  [I]    number of the curve on which the edge lies, -1 if there is none
       first_point   [ranks]    first point of each rank that made the mesh
 
     attributes and tables hold the group /trime_mpi of the file; a table is a dict of columns. config is the config as
@@ -76,6 +116,12 @@ class Mesh:
     config: str
     config_resolved: str
     warnings: list = dataclasses.field(default_factory=list)
+    curve_edges: np.ndarray = no_rows(2, np.int64)
+    curve_numbers: np.ndarray = no_rows(0)
+    interface_edges: np.ndarray = no_rows(2, np.int64)
+    interface_regions: np.ndarray = no_rows(2)
+    interface_pairs: np.ndarray = no_rows(0)
+    interface_curves: np.ndarray = no_rows(0)
 
     def __repr__(self):
         return (f"<trime_mpi.Mesh of {len(self.points)} points, {len(self.triangles)} triangles, "
@@ -110,14 +156,39 @@ class Mesh:
         tags = self.tables.get("tags", {})
         return {int(number): name for number, name in zip(tags.get("region_id", ()), tags.get("region_name", ()))}
 
+    def in_region(self, name):
+        """Returns for each triangle whether it lies in the region with this name, or in one of a list of names.
+
+        Raises KeyError for an unknown name.
+        """
+        numbers = {name: number for number, name in self.regions.items()}
+        return np.isin(self.region, [numbers[one] for one in ([name] if isinstance(name, str) else name)])
+
+    @functools.cached_property
+    def curves(self):
+        """The Curve of each curve inside the shape that has an edge, by its name."""
+        table = self.tables.get("curves", {})
+        columns = [table.get(column, ()) for column in ("curve_id", "curve_name", "label")]
+        rows = rows_by_number(self.curve_numbers)
+        return {name: Curve(name, int(label), rows[number], self.curve_edges[rows[number]])
+                for number, name, label in zip(*columns) if number in rows}
+
+    @functools.cached_property
+    def interfaces(self):
+        """The Interface of each pair of regions that has an edge, by its name, such as rock|soil."""
+        table = self.tables.get("interfaces", {})
+        columns = [table.get(column, ()) for column in ("pair_id", "pair_name", "label", "left", "right")]
+        rows, names = rows_by_number(self.interface_pairs), self.regions
+        return {name: Interface(name, int(label), rows[number], self.interface_edges[rows[number]], names[left],
+                                names[right])
+                for number, name, label, left, right in zip(*columns) if number in rows}
+
     @functools.cached_property
     def boundaries(self):
         """The Boundary of each part of the shape that has an edge, by the name of the part."""
-        order = np.argsort(self.facet_parts, kind="stable")
-        numbers, first = np.unique(self.facet_parts[order], return_index=True)
         found = {}
-        for number, rows in zip(numbers, np.split(order, first[1:])):
-            name = self.parts.get(int(number), f"part {int(number)}")
+        for number, rows in rows_by_number(self.facet_parts).items():
+            name = self.parts.get(number, f"part {number}")
             found[name] = Boundary(name, rows, self.facets[rows])
         return found
 
@@ -180,6 +251,13 @@ class Mesh:
                          np.diff(np.append(self.first_point, len(self.points))))
 
 
+def rows_by_number(numbers):
+    """Returns the rows in which each number stands, by the number, ascending."""
+    order = np.argsort(numbers, kind="stable")
+    different, first = np.unique(numbers[order], return_index=True)
+    return dict(zip(map(int, different), np.split(order, first[1:])))
+
+
 def brought_together(places, periods):
     """Replaces places [..., k, 2] by their periodic images that are nearest to the first of each k."""
     for axis, period in enumerate(periods):
@@ -233,6 +311,11 @@ def mapped(dataset):
     return np.memmap(dataset.file.filename, dataset.dtype, "c", offset, dataset.shape).view(np.ndarray)
 
 
+INNER_EDGES = {"curves": {"curve_edges": "topology", "curve_numbers": "values"},
+               "interfaces": {"interface_edges": "topology", "interface_regions": "regions",
+                              "interface_pairs": "values", "interface_curves": "curves"}}  # arrays of /Mesh, by member
+
+
 def read_open(file, path, take):
     """Returns the mesh of an open file. take: returns the values of a dataset."""
     about = file["trime_mpi"]
@@ -242,7 +325,10 @@ def read_open(file, path, take):
         points, triangles = take(file["VTKHDF/Points"])[:, :2], take(file["VTKHDF/Connectivity"]).reshape(-1, 3)
     fields = file["VTKHDF" if "VTKHDF/PointData" in file else "Mesh"]
     cells, nodes, facets = fields["CellData"], fields["PointData"], file["Mesh/facets"]
-    tables = read_tables(about)
+    tables, inner = read_tables(about), {}
+    for group, names in INNER_EDGES.items():
+        if group in file["Mesh"]:
+            inner.update((member, take(file["Mesh"][group][array])) for member, array in names.items())
     first = np.asarray(tables.pop("ranks", {}).get("first_point", [0]))
     return Mesh(
         path=os.fspath(path), points=points, triangles=triangles, alpha=take(cells["alpha"]), beta=take(cells["beta"]),
@@ -251,7 +337,7 @@ def read_open(file, path, take):
         facet_parts=take(facets["parts"]),
         facet_size=take(facets["asked_size"]) if "asked_size" in facets else np.zeros(0, np.float32), first_point=first,
         attributes={key: python_value(value) for key, value in about.attrs.items()}, tables=tables,
-        config=text_of(about, "config_text"), config_resolved=text_of(about, "config_resolved"))
+        config=text_of(about, "config_text"), config_resolved=text_of(about, "config_resolved"), **inner)
 
 
 def read(file, in_place=False):

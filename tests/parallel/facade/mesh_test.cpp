@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The library in one header: meshes of programs that have MPI running, on all ranks, on some of them, and on one.
+#include "support/mesh_slabs.hpp"
 #include "support/temporary_directory.hpp"
 #include "trime/comm/from_mpi.hpp"
+#include "trime/io/mesh_file.hpp"
+#include "trime/meshing/mesher.hpp"
+#include "trime/record/describe.hpp"
 #include "trime/trime.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -112,6 +117,50 @@ TEST(Facade, AFileIsReadBackWithItsNames) {
   read.write(directory.path() + "/other/plate.msh");
   expect_in("exists", error_of<FileError>([&] { read.write(directory.path() + "/other/plate.msh"); }));
   expect_in("expected a path that ends in .h5", error_of<ConfigError>([&] { read.write("plate.docx"); }));
+}
+
+/// Writes a mesh with regions, which came from a program, to a file that names them.
+void write_divided_square(const std::string& directory, const comm::Communicator& comm) {
+  io::MeshFileOptions options;
+  options.directory = directory;
+  options.name = "square";
+  options.part_markers = {0, 0};
+  const mesh::DistributedMesh whole = test::divided_square(11);
+  record::Origin origin{{"hole", "rim"}, {0, 0}, test::three_regions()};
+  origin.curve_names = {"fault", "wall"};
+  meshing::MeshResult result;
+  result.mesh = test::slabs_of(whole, comm, 3);
+  result.mesh.hash = mesh::partial_hash(whole);
+  io::write_mesh(options, result.mesh, record::describe(result, origin, "uniform", comm), comm);
+}
+
+TEST(Facade, RegionsCurvesAndInterfacesAreFoundByTheirNames) {
+  const comm::Communicator world = comm::Communicator::world();
+  const test::TemporaryDirectory directory(world);
+  write_divided_square(directory.path(), world);
+  const Mesh mesh = read_mesh(MPI_COMM_WORLD, directory.path() + "/square.h5");
+  const MeshNames names = mesh.names();
+  EXPECT_EQ(names.regions, (std::vector<std::string>{"rest", "rock", "soil"}));
+  EXPECT_EQ(names.interfaces, (std::vector<std::string>{"rest|rock", "rest|soil", "rock|soil"}));
+  const LocalMesh local = mesh.local();
+  const mesh::DistributedMesh whole = test::divided_square(11);
+  double owned = 0;
+  for (const InnerEdge& edge : local.interfaces("rock|soil")) {
+    EXPECT_EQ(edge.left < 0 ? 2 : local.region(edge.left), 2);
+    EXPECT_EQ(edge.right < 0 ? 3 : local.region(edge.right), 3);
+    owned += edge.owned ? 1 : 0;
+  }
+  EXPECT_EQ(local.sum(owned),
+            static_cast<double>(std::count(whole.interface_pairs.begin(), whole.interface_pairs.end(), 2)));
+  EXPECT_EQ(local.sum(static_cast<double>(local.arrays().owned_curve_edges)),
+            static_cast<double>(whole.curve_slab.total));
+  EXPECT_LE(local.curve_edges("wall").size(), 10u);
+  expect_in("no interface 'soil|rock'", error_of<ConfigError>([&] { local.interfaces("soil|rock"); }));
+  expect_in("no curve 'wal'", error_of<ConfigError>([&] { local.curve_edges("wal"); }));
+  mesh.write(directory.path() + "/again.h5");
+  const Mesh again = read_mesh(MPI_COMM_WORLD, directory.path() + "/again.h5");
+  EXPECT_EQ(again.names().interfaces, names.interfaces);
+  EXPECT_EQ(again.result().mesh.interface_slab.total, whole.interface_slab.total);
 }
 
 TEST(Facade, SizesByAFunctionAndAutomatically) {

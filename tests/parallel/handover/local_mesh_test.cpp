@@ -172,6 +172,84 @@ TEST(LocalMesh, RegionsComeWithTheTriangles) {
     EXPECT_EQ(mesh.regions.empty() ? 1 : mesh.regions[t], 1 + mesh.triangle_ids[t] % 3);
 }
 
+/// Ends of an edge inside, and its numbers.
+struct ListedEdge {
+  std::array<GlobalId, 2> ends;
+  std::vector<std::int32_t> numbers;
+  auto operator<=>(const ListedEdge&) const = default;
+};
+
+/// Checks edges inside against those of the whole mesh. `numbers` are those of a local edge.
+template <class Numbers>
+void expect_inner_edges(const LocalMesh& mesh, const DistributedMesh& whole, const std::set<ListedEdge>& expected,
+                        const std::vector<std::array<LocalIndex, 2>>& edges,
+                        const std::vector<std::array<LocalIndex, 2>>& triangles, const Numbers& numbers) {
+  std::map<std::array<GlobalId, 2>, GlobalId> triangle_at; // on the left of a side
+  for (std::size_t t = 0; t < whole.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k)
+      triangle_at[{whole.triangle_ids(t)[k], whole.triangle_ids(t)[(k + 1) % 3]}] = static_cast<GlobalId>(t);
+  std::map<GlobalId, LocalIndex> local;
+  for (std::size_t t = 0; t < mesh.triangle_ids.size(); ++t)
+    local[mesh.triangle_ids[t]] = static_cast<LocalIndex>(t);
+  const auto held = [&](const std::array<GlobalId, 2>& side) {
+    const auto found = local.find(triangle_at.at(side));
+    return found == local.end() ? -1 : found->second;
+  };
+  std::set<ListedEdge> found;
+  for (std::size_t k = 0; k < edges.size(); ++k) {
+    const auto ends = global(mesh, edges[k]);
+    EXPECT_TRUE(expected.contains({ends, numbers(k)}));
+    EXPECT_TRUE(found.insert({ends, numbers(k)}).second);
+    EXPECT_EQ(triangles[k][0], held({ends[0], ends[1]}));
+    EXPECT_EQ(triangles[k][1], held({ends[1], ends[0]}));
+    EXPECT_TRUE(triangles[k][0] >= 0 || triangles[k][1] >= 0);
+  }
+  for (const ListedEdge& edge : expected) // all that a local triangle has are there
+    EXPECT_EQ(found.contains(edge), held({edge.ends[0], edge.ends[1]}) >= 0 || held({edge.ends[1], edge.ends[0]}) >= 0);
+}
+
+TEST(LocalMesh, EdgesInsideKnowTheTrianglesOnBothSides) {
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6})
+    for (const Overlap overlap : {Overlap::none, Overlap::triangles}) {
+      const DistributedMesh whole = test::divided_square(seed % 2 == 0 ? 3 : 11);
+      ASSERT_GT(whole.interfaces.size(), 2u);
+      const LocalMesh mesh = make_local_mesh(world(), test::slabs_of(whole, world(), seed), overlap);
+      std::set<ListedEdge> curves, interfaces;
+      for (std::size_t k = 0; k < whole.curve_edges.size(); ++k)
+        curves.insert({whole.curve_edges[k], {whole.curve_numbers[k]}});
+      for (std::size_t k = 0; k < whole.interfaces.size(); ++k)
+        interfaces.insert({whole.interfaces[k],
+                           {whole.interface_regions[k][0], whole.interface_regions[k][1], whole.interface_pairs[k],
+                            whole.interface_curves[k]}});
+      expect_inner_edges(mesh, whole, curves, mesh.curve_edges, mesh.curve_triangles,
+                         [&](std::size_t k) { return std::vector{mesh.curve_numbers.at(k)}; });
+      expect_inner_edges(mesh, whole, interfaces, mesh.interfaces, mesh.interface_triangles, [&](std::size_t k) {
+        return std::vector{mesh.interface_regions.at(k)[0], mesh.interface_regions.at(k)[1], mesh.interface_pairs.at(k),
+                           mesh.interface_curves.at(k)};
+      });
+      EXPECT_EQ(world().sum(std::int64_t{mesh.owned_curve_edges}), whole.curve_slab.total);
+      EXPECT_EQ(world().sum(std::int64_t{mesh.owned_interfaces}), whole.interface_slab.total);
+      for (std::size_t k = 0; k < mesh.interfaces.size(); ++k) {
+        const auto [left, right] = mesh.interface_triangles[k];
+        EXPECT_EQ(static_cast<LocalIndex>(k) < mesh.owned_interfaces, left >= 0 && left < mesh.owned_triangles);
+        if (overlap == Overlap::triangles &&
+            (mesh.interfaces[k][0] < mesh.owned_points || mesh.interfaces[k][1] < mesh.owned_points)) {
+          EXPECT_GE(std::min(left, right), 0);
+        }
+        for (const std::size_t side : {0, 1})
+          if (const LocalIndex t = mesh.interface_triangles[k][side]; t >= 0) {
+            EXPECT_EQ(mesh.regions.empty() ? 1 : mesh.regions[at(t)], mesh.interface_regions[k][side]);
+          }
+      }
+    }
+}
+
+TEST(LocalMesh, InterfacesThatAreNoEdgesAreAnErrorOnAllRanks) {
+  DistributedMesh whole = test::divided_square(5);
+  whole.interfaces[1] = {0, static_cast<GlobalId>(whole.points.size()) - 1};
+  EXPECT_THROW(make_local_mesh(world(), test::slabs_of(whole, world(), 2)), InternalError);
+}
+
 TEST(LocalMesh, FacetsWithoutATriangleAreAnErrorOnAllRanks) {
   DistributedMesh whole = test::holed_square(5);
   std::swap(whole.facets[3][0], whole.facets[3][1]); // its interior is on the wrong side

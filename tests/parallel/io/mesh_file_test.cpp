@@ -13,8 +13,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 #include <fstream>
 #include <sstream>
+#include <type_traits>
 
 namespace trime::io {
 namespace {
@@ -203,10 +206,106 @@ TEST(MeshFile, KeepsItsContractOnAnyDistribution) {
     expect_vtkhdf(file);
     expect_plain_mesh(file);
     expect_metadata(file);
+    for (const char* absent : {"/Mesh/curves", "/Mesh/interfaces", "/Mesh/lines"})
+      EXPECT_FALSE(H5Lexists(file, absent, H5P_DEFAULT) > 0) << absent;
+    EXPECT_NE(content(options.path(".xmf")).find("/Mesh/facets/topology<"), std::string::npos);
     const std::string xdmf = content(options.path(".xdmf"));
     EXPECT_NE(xdmf.find("Dimensions=\"1900 3\""), std::string::npos);
     EXPECT_NE(xdmf.find("a&amp;b.h5:/VTKHDF/CellData/alpha<"), std::string::npos);
   }
+}
+
+Metadata metadata_of_regions(const mesh::DistributedMesh& whole) {
+  return {{{"mesh_hash", mesh::partial_hash(whole)}},
+          {},
+          {{"curves", {}, {{"curve_name", std::vector<std::string>{"fault", "wall"}}}},
+           {"interfaces", {}, {{"pair_name", std::vector<std::string>{"rest|rock", "rest|soil", "rock|soil"}}}}}};
+}
+
+/// Compares an array of numbers, or of fixed numbers of them, with a dataset.
+template <class Row>
+void expect_rows(hid_t file, const char* path, hid_t type, const std::vector<Row>& rows) {
+  using T = std::conditional_t<std::is_same_v<Row, std::array<GlobalId, 2>>, GlobalId, std::int32_t>;
+  constexpr std::size_t columns = sizeof(Row) / sizeof(T);
+  std::vector<hsize_t> shape{rows.size()};
+  if (columns > 1)
+    shape.push_back(columns);
+  const std::vector<T> values = read<T>(file, path, type, shape);
+  ASSERT_EQ(values.size(), columns * rows.size());
+  EXPECT_EQ(std::memcmp(values.data(), rows.data(), rows.size() * sizeof(Row)), 0) << path;
+}
+
+/// Compares a file with the whole mesh.
+void expect_inner_edges(hid_t file, const mesh::DistributedMesh& whole) {
+  const hid_t i64 = H5T_NATIVE_INT64, i32 = H5T_NATIVE_INT32;
+  std::vector<std::array<GlobalId, 2>> lines = whole.facets;
+  std::vector<std::int32_t> labels, curve_labels, interface_labels;
+  for (const std::int32_t part : whole.facet_parts)
+    labels.push_back(part + 1);
+  for (std::size_t k = 0; k < whole.curve_edges.size(); ++k) {
+    curve_labels.push_back(3 + whole.curve_numbers[k]);
+    lines.push_back(whole.curve_edges[k]);
+    labels.push_back(curve_labels.back());
+  }
+  for (std::size_t k = 0; k < whole.interfaces.size(); ++k) {
+    interface_labels.push_back(5 + whole.interface_pairs[k]);
+    if (whole.interface_curves[k] >= 0)
+      continue;
+    lines.push_back(whole.interfaces[k]);
+    labels.push_back(interface_labels.back());
+  }
+  expect_rows(file, "/Mesh/curves/topology", i64, whole.curve_edges);
+  expect_rows(file, "/Mesh/curves/labels", i32, curve_labels);
+  expect_rows(file, "/Mesh/interfaces/topology", i64, whole.interfaces);
+  expect_rows(file, "/Mesh/interfaces/regions", i32, whole.interface_regions);
+  expect_rows(file, "/Mesh/interfaces/values", i32, whole.interface_pairs);
+  expect_rows(file, "/Mesh/interfaces/curves", i32, whole.interface_curves);
+  expect_rows(file, "/Mesh/interfaces/labels", i32, interface_labels);
+  expect_rows(file, "/Mesh/lines/topology", i64, lines);
+  expect_rows(file, "/Mesh/lines/labels", i32, labels);
+}
+
+TEST(MeshFile, HoldsInterfacesAndAllLabelledEdgesInOneOrder) {
+  const comm::Communicator comm = comm::Communicator::world();
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const test::TemporaryDirectory directory(comm);
+    MeshFileOptions options = options_in(directory.path());
+    options.part_markers = {0, 0};
+    check_output(options, comm);
+    const mesh::DistributedMesh whole = test::divided_square(seed == 1 ? 3 : 11);
+    write_mesh(options, test::slabs_of(whole, comm, seed), metadata_of_regions(whole), comm);
+    if (!comm.is_root())
+      continue;
+    const Hdf5File file(H5Fopen(options.path(".h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "open");
+    expect_inner_edges(file, whole);
+    const std::string xdmf = content(options.path(".xdmf")), lines = content(options.path(".xmf"));
+    EXPECT_EQ(xdmf.find("<Attribute Name=\"region\""), xdmf.find("<Attribute")) << "dolfinx reads the first attribute";
+    EXPECT_NE(lines.find("<Grid Name=\"facets\""), std::string::npos);
+    EXPECT_NE(lines.find("/Mesh/lines/topology<"), std::string::npos);
+    EXPECT_NE(lines.find("/Mesh/lines/labels<"), std::string::npos);
+  }
+}
+
+TEST(MeshFile, ReadsWhatItWroteOfInterfaces) {
+  const comm::Communicator comm = comm::Communicator::world();
+  const test::TemporaryDirectory directory(comm);
+  const MeshFileOptions options = options_in(directory.path());
+  check_output(options, comm);
+  const mesh::DistributedMesh whole = test::divided_square(11);
+  const Metadata metadata = metadata_of_regions(whole);
+  write_mesh(options, test::slabs_of(whole, comm, 2), metadata, comm);
+  const mesh::DistributedMesh part = read_mesh(options.path(".h5"), metadata, comm);
+  const auto same = [](const auto& mine, const auto& all, const mesh::Slab& slab) {
+    return slab.total == std::ssize(all) && mine == test::cut(all, slab, std::ssize(mine));
+  };
+  EXPECT_TRUE(same(part.curve_edges, whole.curve_edges, part.curve_slab));
+  EXPECT_TRUE(same(part.curve_numbers, whole.curve_numbers, part.curve_slab));
+  EXPECT_TRUE(same(part.interfaces, whole.interfaces, part.interface_slab));
+  EXPECT_TRUE(same(part.interface_regions, whole.interface_regions, part.interface_slab));
+  EXPECT_TRUE(same(part.interface_pairs, whole.interface_pairs, part.interface_slab));
+  EXPECT_TRUE(same(part.interface_curves, whole.interface_curves, part.interface_slab));
+  EXPECT_TRUE(same(part.region, whole.region, part.triangle_slab));
+  EXPECT_EQ(comm.sum(std::ssize(part.interfaces)), whole.interface_slab.total);
 }
 
 TEST(MeshFile, WritesOnlyTheViewsThatAreWanted) {

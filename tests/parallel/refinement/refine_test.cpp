@@ -9,6 +9,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
+
 namespace trime::refinement {
 namespace {
 
@@ -46,6 +49,17 @@ void expect_part(const DistributedMesh& part, const DistributedMesh& whole) {
   EXPECT_TRUE(same(part.facet_tags, whole.facet_tags, part.facet_slab));
   EXPECT_TRUE(same(part.facet_parts, whole.facet_parts, part.facet_slab));
   EXPECT_TRUE(same(part.facet_sizes, whole.facet_sizes, part.facet_slab));
+  EXPECT_EQ(part.curve_slab.total, whole.curve_slab.total);
+  EXPECT_EQ(part.interface_slab.total, whole.interface_slab.total);
+  EXPECT_TRUE(same(part.curve_edges, whole.curve_edges, part.curve_slab));
+  EXPECT_TRUE(same(part.curve_numbers, whole.curve_numbers, part.curve_slab));
+  EXPECT_TRUE(same(part.interfaces, whole.interfaces, part.interface_slab));
+  EXPECT_TRUE(same(part.interface_regions, whole.interface_regions, part.interface_slab));
+  EXPECT_TRUE(same(part.interface_pairs, whole.interface_pairs, part.interface_slab));
+  EXPECT_TRUE(same(part.interface_curves, whole.interface_curves, part.interface_slab));
+  if (!part.region.empty()) {
+    EXPECT_TRUE(same(part.region, whole.region, part.triangle_slab));
+  }
   for (std::size_t t = 0; t < part.triangles.size(); ++t)
     EXPECT_EQ(part.triangle_ids(t), whole.triangle_ids(static_cast<std::size_t>(part.triangle_slab.first) + t));
 }
@@ -61,6 +75,11 @@ void expect_same(const DistributedMesh& whole, const DistributedMesh& part, cons
   EXPECT_EQ(found.middles.on_curve, expected.middles.on_curve);
   EXPECT_EQ(2 * (found.middles.on_curve + found.middles.straight + found.middles.refused),
             expected.mesh.facet_slab.total);
+  ASSERT_EQ(found.regions.size(), expected.regions.size());
+  for (std::size_t k = 0; k < found.regions.size(); ++k) {
+    EXPECT_EQ(found.regions[k].triangles, expected.regions[k].triangles);
+    EXPECT_EQ(found.regions[k].area, expected.regions[k].area);
+  }
   ASSERT_EQ(found.loops.size(), expected.loops.size());
   for (std::size_t k = 0; k < found.loops.size(); ++k)
     EXPECT_EQ(found.loops[k].length, expected.loops[k].length);
@@ -107,6 +126,42 @@ TEST(Refine, KeepsRegions) {
     ++after[static_cast<std::size_t>(region)];
   for (std::size_t k = 0; k < before.size(); ++k)
     EXPECT_EQ(after[k], 4 * before[k]);
+}
+
+TEST(Refine, GivesTheSameInterfacesFromAnySlabs) {
+  const geometry::Frame frame(geometry::unit_square);
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    DistributedMesh whole = test::divided_square(seed % 2 == 0 ? 3 : 11);
+    for (geometry::Vec2& p : whole.points)
+      p = frame.lattice().snap(p);
+    expect_same(whole, test::slabs_of(whole, world(), seed), {frame});
+  }
+}
+
+TEST(Refine, HalvesInterfacesAndKeepsTheirSides) {
+  const geometry::Frame frame(geometry::unit_square);
+  DistributedMesh whole = test::divided_square(7);
+  for (geometry::Vec2& p : whole.points)
+    p = frame.lattice().snap(p);
+  const Refined refined = refine(comm::Communicator::self(), whole, {frame});
+  const DistributedMesh& mesh = refined.mesh;
+  EXPECT_EQ(mesh.interface_slab.total, 2 * whole.interface_slab.total);
+  EXPECT_EQ(mesh.curve_slab.total, 2 * whole.curve_slab.total);
+  std::map<std::array<GlobalId, 2>, std::int32_t> region_of; // on the left of a side
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k)
+      region_of[{mesh.triangle_ids(t)[k], mesh.triangle_ids(t)[(k + 1) % 3]}] = mesh.region[t];
+  for (std::size_t k = 0; k < mesh.interfaces.size(); ++k) {
+    const auto [a, b] = mesh.interfaces[k];
+    EXPECT_EQ((region_of[{a, b}]), mesh.interface_regions[k][0]);
+    EXPECT_EQ((region_of[{b, a}]), mesh.interface_regions[k][1]);
+    EXPECT_EQ(mesh.interface_pairs[k], mesh.interface_regions[k][0] + mesh.interface_regions[k][1] - 3);
+    EXPECT_EQ(mesh.interface_curves[k], mesh.interface_pairs[k] == 0 ? 0 : -1);
+  }
+  ASSERT_EQ(refined.regions.size(), 3u);
+  EXPECT_EQ(refined.regions[1].triangles, std::count(mesh.region.begin(), mesh.region.end(), 2));
+  const auto has_interfaces = [](const mesh::Check& check) { return check.name == "interfaces" && check.passed; };
+  EXPECT_EQ(std::count_if(refined.checks.begin(), refined.checks.end(), has_interfaces), 1);
 }
 
 TEST(Refine, TwiceHalvesEdgesTwice) {
