@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "checks.hpp"
 
+#include <algorithm>
 #include <map>
 
 namespace trime_check {
@@ -64,11 +65,32 @@ private:
   std::map<Facet, int> triangles_, listed_;
 };
 
+/// The list of all labelled edges against the lists of facets, edges on curves and interfaces. Older files have none.
+void check_lines(const Mesh& mesh, Report& report) {
+  std::vector<Facet> edges = mesh.facets;
+  std::vector<std::int64_t> labels = mesh.facet_labels;
+  edges.insert(edges.end(), mesh.curve_edges.begin(), mesh.curve_edges.end());
+  labels.insert(labels.end(), mesh.curve_labels.begin(), mesh.curve_labels.end());
+  for (std::size_t k = 0; k < mesh.interfaces.size(); ++k)
+    if (mesh.interface_curves[k] == -1) {
+      edges.push_back(mesh.interfaces[k]);
+      labels.push_back(mesh.interface_labels[k]);
+    }
+  Tally wrong;
+  for (std::size_t k = 0; k < std::max(edges.size(), mesh.lines.size()); ++k)
+    if (k >= std::min(edges.size(), mesh.lines.size()) || edges[k] != mesh.lines[k] || labels[k] != mesh.line_labels[k])
+      wrong.note([&] { return fmt::format("row {}", k); });
+  report.none("lines", wrong,
+              "rows of /Mesh/lines that are not the facets, then the edges on curves, then the other interface edges");
+}
+
 } // namespace
 
 void check_curves(const StoredFile& file, const Mesh& mesh, Report& report) {
   if (!mesh.curve_edges.empty())
     CurveChecks(file, mesh, report).run();
+  if (file.has("/Mesh/lines"))
+    check_lines(mesh, report);
 }
 
 } // namespace trime_check

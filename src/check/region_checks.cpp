@@ -13,7 +13,7 @@ namespace {
 
 // [area of the mesh] Areas in tables are sums in double precision.
 constexpr double area_tolerance = 1e-12;
-// So many regions get a line of numbers each.
+// The report has a line of numbers for each of the first regions, at most as many.
 constexpr std::size_t most_lines = 20;
 
 /// An edge between two regions, by the triangles.
@@ -22,7 +22,7 @@ struct Border {
   std::array<Side, 2> sides{}; ///< of the lower region, of the other one
 };
 
-/// What belongs to one region, by the arrays.
+/// Collects what belongs to one region, by the arrays.
 struct RegionParts {
   std::int64_t triangles = 0, edges = 0, points = 0, components = 0;
   Integer twice_area = 0;                            // of its triangles

@@ -15,7 +15,7 @@ constexpr double on_curve = 1e-9, box_slack = 1e-12;
 constexpr double beside_curve = 1;
 // [size of the mesh] The size asked for is not stored inside. Unless it is uniform, it may be larger by as much.
 constexpr double lowered = 2;
-// So many triangles are tested at most.
+// Number of triangles that are tested at most.
 constexpr std::size_t most_places = 1'000'000;
 
 /// The regions of a config: the first one that contains a place has it, and the rest has number 1.
@@ -24,16 +24,12 @@ public:
   /// @throws Failure (exit 2) if an expression names a part that does not exist
   RegionList(const ConfigText& config, const Shape& shape) : shape_(shape) {
     names.push_back(config.value("shape", "rest"));
-    if (names[0].empty())
+    if (names[0].empty() || names[0] == "geometry")
       names[0] = config.value("shape", "geometry");
     for (const std::string& name : config.regions()) {
       const std::string geometry = config.value("region." + name, "geometry");
       names.push_back(name);
-      if (geometry.empty()) {
-        reason = fmt::format("region {} has no 'geometry'", name);
-        return;
-      }
-      regions_.emplace_back(geometry, shape.numbers);
+      regions_.emplace_back(geometry.empty() || geometry == "NAME" ? name : geometry, shape.numbers);
     }
     for (std::size_t k = 0; k < shape.parts.size(); ++k)
       for (std::size_t region = 0; region < regions_.size(); ++region)

@@ -255,7 +255,7 @@ std::vector<Facet> pairs_of(const std::vector<std::int64_t>& values) {
   return pairs;
 }
 
-/// Edges inside: those on curves, and those between regions.
+/// Edges inside: those on curves, and those between regions; and the list of all edges with labels.
 void read_inner_edges(const ArrayReader& reader, Mesh& mesh) {
   if (reader.file.has("/Mesh/curves")) {
     mesh.curve_edges = pairs_of(reader.integers("/Mesh/curves/topology", "int64", {-1, 2}));
@@ -269,6 +269,10 @@ void read_inner_edges(const ArrayReader& reader, Mesh& mesh) {
     mesh.interface_pairs = reader.integers("/Mesh/interfaces/values", "int32", {count});
     mesh.interface_labels = reader.integers("/Mesh/interfaces/labels", "int32", {count});
     mesh.interface_curves = reader.integers("/Mesh/interfaces/curves", "int32", {count});
+  }
+  if (reader.file.has("/Mesh/lines")) {
+    mesh.lines = pairs_of(reader.integers("/Mesh/lines/topology", "int64", {-1, 2}));
+    mesh.line_labels = reader.integers("/Mesh/lines/labels", "int32", {std::ssize(mesh.lines)});
   }
 }
 

@@ -12,7 +12,7 @@ namespace trime_check {
 /// An edge as one triangle has it.
 struct Side {
   std::int64_t low, high;
-  std::uint32_t triangle; // of the file; meshes of more are for larger machines than one
+  std::uint32_t triangle; // its number; larger meshes do not fit on one machine
   std::uint8_t corner;    // opposite to it
   bool forward;           // the triangle runs from low to high
 

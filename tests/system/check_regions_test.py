@@ -66,6 +66,12 @@ def list_interfaces(file):
     replace(file, FACES + "values", values)
     replace(file, FACES + "labels", file[PAIRS + "label"][:][values].astype(np.int32))
     replace(file, FACES + "curves", np.array([curves.get(tuple(sorted(edge)), -1) for edge in edges], np.int32))
+    others = file[FACES + "curves"][:] == -1
+    lists = [(file["Mesh/facets/topology"][:], file["Mesh/facets/labels"][:]),
+             (file["Mesh/curves/topology"][:], file["Mesh/curves/labels"][:]),
+             (file[FACES + "topology"][:][others], file[FACES + "labels"][:][others])]
+    replace(file, "Mesh/lines/topology", np.vstack([edges for edges, _ in lists]))
+    replace(file, "Mesh/lines/labels", np.concatenate([labels for _, labels in lists]))
 
 
 def inner_triangle(file):
@@ -151,6 +157,9 @@ DAMAGES = {
     "no labels of interfaces": (lambda f: f.__delitem__(FACES + "labels"), ["arrays"]),
     "labels of another type": (lambda f: replace(f, FACES + "labels", f[FACES + "labels"][:].astype(np.int64)),
                                ["arrays"]),
+    "an edge with another label": (lambda f: change(f, "Mesh/lines/labels", -1, 1), ["lines"]),
+    "an edge with a label lost": (lambda f: [replace(f, name, f[name][:-1]) for name in
+                                             ("Mesh/lines/topology", "Mesh/lines/labels")], ["lines"]),
     "name of a pair": (lambda f: change(f, PAIRS + "pair_name", 0, b"a|b"), ["interface_pairs"]),
     "regions of a pair": (lambda f: change(f, PAIRS + "left", 0, 4), ["interface_pairs", "interface_regions"]),
     "label of a pair": (lambda f: change(f, PAIRS + "label", 0, 1), ["interface_pairs"]),
