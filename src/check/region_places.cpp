@@ -85,15 +85,14 @@ private:
 
 class RegionPlaces {
 public:
-  RegionPlaces(const StoredFile& file, const Mesh& mesh, const ConfigText& config, const Shape& shape,
-               double simplified, Report& report)
-      : file_(file), mesh_(mesh), config_(config), shape_(shape), report_(report), list_(config, shape),
-        refined_(std::exp2(file.number("/trime_mpi", "refinements").value_or(0))) {
-    const std::optional<double> within = config.number("meshing", "simplify_within");
-    strict_ = config.is_true("meshing", "keep_features") || (within && *within == 0);
-    simplified_ = strict_ ? 0 : simplified;
-    if (config.value("sizing", "type") == "uniform" && config.value("sizing", "size_at").empty())
-      uniform_ = std::ranges::max(mesh.size);
+  RegionPlaces(const GivenRegions& given, Report& report)
+      : file_(given.file), mesh_(given.mesh), config_(given.config), shape_(given.shape), report_(report),
+        list_(given.config, given.shape), refined_(std::exp2(file_.number("/trime_mpi", "refinements").value_or(0))) {
+    const std::optional<double> within = config_.number("meshing", "simplify_within");
+    strict_ = config_.is_true("meshing", "keep_features") || (within && *within == 0);
+    simplified_ = strict_ ? 0 : given.simplified;
+    if (config_.value("sizing", "type") == "uniform" && config_.value("sizing", "size_at").empty())
+      uniform_ = std::ranges::max(mesh_.size);
   }
 
   void run() {
@@ -197,10 +196,9 @@ private:
 
 } // namespace
 
-void check_region_places(const StoredFile& file, const Mesh& mesh, const ConfigText& config, const Shape& shape,
-                         double simplified, Report& report) {
-  if (!config.regions().empty() || file.names("/trime_mpi/tags/region_name").size() > 1)
-    RegionPlaces(file, mesh, config, shape, simplified, report).run();
+void check_region_places(const GivenRegions& given, Report& report) {
+  if (!given.config.regions().empty() || given.file.names("/trime_mpi/tags/region_name").size() > 1)
+    RegionPlaces(given, report).run();
 }
 
 } // namespace trime_check

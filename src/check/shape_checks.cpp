@@ -76,7 +76,7 @@ public:
     check_corners();
     check_vertices();
     check_region();
-    check_region_places(file_, mesh_, config_, shape_, simplified_within(), report_);
+    check_region_places({file_, mesh_, config_, shape_, simplified_within()}, report_);
   }
 
 private:
