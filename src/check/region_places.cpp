@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "region_places.hpp"
 
+#include "inside.hpp"
+
 #include <algorithm>
 #include <map>
 #include <set>
@@ -15,6 +17,10 @@ constexpr double on_curve = 1e-9, box_slack = 1e-12;
 constexpr double beside_curve = 1;
 // [size of the mesh] The size asked for is not stored inside. Unless it is uniform, it may be larger by as much.
 constexpr double lowered = 2;
+// [steps of the lattice] Points of a config come to the nearest lattice point.
+constexpr double on_lattice = 4;
+// [degrees] Corners are kept if curves turn by more, unless the config says otherwise.
+constexpr double default_angle = 30;
 // Number of triangles that are tested at most.
 constexpr std::size_t most_places = 1'000'000;
 
@@ -41,16 +47,59 @@ public:
   }
 
   /// Returns the number of the region at a place, from 1.
-  std::int64_t at(Point p) {
+  std::int64_t at(Point p) { return within(parts_around(p)); }
+
+  /// Returns whether the region at a place on the curve of a part changes with the side of this curve. @pre no other
+  /// curve passes there
+  bool changes_at(std::size_t part, Point p) {
+    std::vector<std::size_t> around = parts_around(p);
+    std::erase(around, part);
+    const std::int64_t without = within(around);
+    around.push_back(part);
+    return within(around) != without;
+  }
+
+  /// Returns whether the curve of another part that the shape or a region uses passes within `limit`.
+  bool meets_another(std::size_t part, Point p, double limit) const {
+    for (const Point image : shape_.images(p))
+      for (const std::size_t other : shape_.finder->near(image, limit))
+        if (other != part && (uses(other) || shape_.region->uses(other)) &&
+            shape_.parts[other].curve->distance(image) <= limit)
+          return true;
+    return false;
+  }
+
+  bool uses(std::size_t part) const { return regions_of_part_.contains(part); }
+
+  /// Returns the distance from the nearest curve that a region uses if it is at most `limit`, otherwise a larger
+  /// number.
+  double distance(Point p, double limit) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Point image : shape_.images(p))
+      for (const std::size_t part : shape_.finder->near(image, limit))
+        if (uses(part))
+          least = std::min(least, shape_.parts[part].curve->distance(image) - shape_.parts[part].bend);
+    return least;
+  }
+
+  std::vector<std::string> names; ///< of the regions 1, 2, ...
+  std::string reason;             ///< why regions cannot be compared; empty: they can
+
+private:
+  std::vector<std::size_t> parts_around(Point p) const {
     std::vector<std::size_t> around;
-    std::set<std::size_t> candidates; // a region that uses no part around the place does not contain it
     for (const Point image : shape_.images(p))
       for (const std::size_t part : shape_.finder->near(image, box_slack * shape_.side()))
-        if (const auto users = regions_of_part_.find(part);
-            users != regions_of_part_.end() && shape_.parts[part].curve->contains(image)) {
+        if (uses(part) && shape_.parts[part].curve->contains(image))
           around.push_back(part);
-          candidates.insert(users->second.begin(), users->second.end());
-        }
+    return around;
+  }
+
+  /// The first region that contains a place within these parts. Those that use none of them do not contain it.
+  std::int64_t within(const std::vector<std::size_t>& around) {
+    std::set<std::size_t> candidates;
+    for (const std::size_t part : around)
+      candidates.insert(regions_of_part_[part].begin(), regions_of_part_[part].end());
     for (const std::size_t region : candidates) {
       for (const std::size_t part : around)
         regions_[region].set(part, true);
@@ -63,21 +112,6 @@ public:
     return 1;
   }
 
-  /// Returns the distance from the nearest curve that a region uses if it is at most `limit`, otherwise a larger
-  /// number.
-  double distance(Point p, double limit) const {
-    double least = std::numeric_limits<double>::infinity();
-    for (const Point image : shape_.images(p))
-      for (const std::size_t part : shape_.finder->near(image, limit))
-        if (regions_of_part_.contains(part))
-          least = std::min(least, shape_.parts[part].curve->distance(image) - shape_.parts[part].bend);
-    return least;
-  }
-
-  std::vector<std::string> names; ///< of the regions 1, 2, ...
-  std::string reason;             ///< why regions cannot be compared; empty: they can
-
-private:
   const Shape& shape_;
   std::vector<Region> regions_;
   std::unordered_map<std::size_t, std::vector<std::size_t>> regions_of_part_;
@@ -105,6 +139,7 @@ public:
     }
     check_triangles();
     check_interfaces();
+    check_corners();
   }
 
 private:
@@ -180,6 +215,45 @@ private:
                  fmt::format("points of interfaces that do not lie on the curve of a part{}; {} were tested, and the "
                              "largest distance of the others is {:.3g}",
                              strict_ ? "" : ", which may have been simplified", ends.size(), largest));
+  }
+
+  /// Corners of interfaces, away from other curves.
+  void check_corners() {
+    if (const auto unknown =
+            std::ranges::find_if(shape_.parts, [&](const Part& part) { return !part.curve && shape_.is_used(part); });
+        unknown != shape_.parts.end()) {
+      report_.skip("region_corners", fmt::format("part {}: {}", unknown->name, unknown->reason));
+      return;
+    }
+    const double angle = config_.number("meshing", "corner_angle").value_or(default_angle);
+    const double limit = on_lattice * shape_.step;
+    std::vector<Point> fixed;
+    for (std::size_t i = 0; i < mesh_.points.size(); ++i)
+      if (mesh_.fixed[i] == 1)
+        fixed.push_back(mesh_.points[i]);
+    const PointFinder vertices(fixed, mesh_.periods);
+    std::int64_t expected = 0;
+    Tally missing;
+    for (std::size_t k = 0; k < shape_.parts.size(); ++k) {
+      if (!list_.uses(k))
+        continue;
+      for (const Point corner : shape_.parts[k].curve->corners(angle))
+        if (!shape_.parts[k].is_crossing(corner) && !list_.meets_another(k, corner, limit) && shape_.contains(corner) &&
+            list_.changes_at(k, corner)) {
+          ++expected;
+          if (vertices.nearest(corner).distance > 2 * limit)
+            missing.note([&] { return place_of(corner); });
+        }
+    }
+    const std::int64_t found = expected - missing.count;
+    if (strict_ || missing.count == 0)
+      report_.equal("region_corners", expected, found, "corners of interfaces in the config that are vertices",
+                    missing.count == 0 ? "" : "first that is not a vertex: " + missing.place);
+    else
+      report_.skip("region_corners",
+                   fmt::format("{} of {} corners of interfaces in the config are vertices; others may "
+                               "have been simplified",
+                               found, expected));
   }
 
   const StoredFile& file_;
