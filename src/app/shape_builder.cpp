@@ -46,9 +46,10 @@ RunOptions with_used_parts(const RunOptions& options) {
     names.push_back(part.name);
   const std::vector<int> in_shape = region_of(options).parts();
   std::set<int> found(in_shape.begin(), in_shape.end());
-  for (const RegionOptions& region : options.regions)
-    for (const int part : shape::Region::parse(region.geometry, names).parts())
-      found.insert(part);
+  for (const RegionOptions& region : options.regions) {
+    const std::vector<int> in_region = shape::Region::parse(region.geometry, names).parts();
+    found.insert(in_region.begin(), in_region.end());
+  }
   RunOptions used = options;
   used.parts.clear();
   for (int k = 0; k < static_cast<int>(options.parts.size()); ++k) {

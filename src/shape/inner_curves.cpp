@@ -17,13 +17,6 @@ using geometry::Vec2;
 
 constexpr double sharp_angle = pi / 3;
 
-Piece reversed(Piece piece) {
-  std::swap(piece.start, piece.end);
-  piece.start_angle += piece.sweep;
-  piece.sweep = -piece.sweep;
-  return piece;
-}
-
 /// Follows pieces from vertex to vertex.
 class PieceWalk {
 public:
@@ -136,6 +129,16 @@ private:
 };
 
 } // namespace
+
+Piece reversed(Piece piece) {
+  std::swap(piece.start, piece.end);
+  if (piece.circular) {
+    const Vec2 from = piece.start - piece.center;
+    piece.start_angle = angle_of(from.y, from.x);
+    piece.sweep = -piece.sweep;
+  }
+  return piece;
+}
 
 std::vector<InnerArc> join_pieces(std::vector<CurvePiece> pieces, const std::vector<char>& on_boundary,
                                   const geometry::Boundary& boundary) {

@@ -16,6 +16,9 @@ struct CurvePiece {
   geometry::Piece piece;   ///< Piece::part is the number of the curve, or -1 for an interface on which no curve lies
 };
 
+/// Returns the piece in the other direction.
+geometry::Piece reversed(geometry::Piece piece);
+
 /// @brief Joins pieces to arcs. A vertex is a node if it lies on the boundary, if another number of pieces than two
 /// meets there, or if pieces of two curves or of two pairs of regions do. A ring without a node begins at its vertex
 /// that comes first in lexicographic order. Cost: O(n log n).

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shape/inner_pieces.hpp"
 
-#include "core/angle.hpp"
 #include "trime/core/error.hpp"
 
 #include <utility>
@@ -10,16 +9,6 @@ namespace trime::shape {
 
 using geometry::Piece;
 using geometry::Vec2;
-
-Piece reversed(Piece piece) {
-  std::swap(piece.start, piece.end);
-  if (piece.circular) {
-    const Vec2 from = piece.start - piece.center;
-    piece.start_angle = angle_of(from.y, from.x);
-    piece.sweep = -piece.sweep;
-  }
-  return piece;
-}
 
 void InnerPieces::look_at(LocalIndex k, const Side& left, const Side& right, Vec2 middle) {
   const Arrangement::Piece& piece = arrangement_.pieces()[k];

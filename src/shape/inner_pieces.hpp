@@ -59,7 +59,4 @@ private:
   std::vector<double> on_boundary_, outside_; // lengths by curve
 };
 
-/// Returns the piece in the other direction.
-geometry::Piece reversed(geometry::Piece piece);
-
 } // namespace trime::shape
