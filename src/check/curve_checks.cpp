@@ -13,8 +13,7 @@ public:
   CurveChecks(const StoredFile& file, const Mesh& mesh, Report& report) : file_(file), mesh_(mesh), report_(report) {}
 
   void run() {
-    if (!check_ranges())
-      return;
+    check_numbers();
     for (const Facet& edge : mesh_.curve_edges)
       triangles_.try_emplace(ascending(edge), 0);
     Tally twice, wide;
@@ -39,24 +38,17 @@ public:
   }
 
 private:
-  /// Returns false if the numbers are so wrong that nothing more can be checked.
-  bool check_ranges() {
-    const auto points = static_cast<std::int64_t>(mesh_.points.size());
+  void check_numbers() {
     const auto curves = static_cast<std::int64_t>(file_.names("/trime_mpi/curves/curve_name").size());
     const auto parts = static_cast<std::int64_t>(file_.names("/trime_mpi/tags/part_name").size());
-    Tally ids, numbers;
+    Tally numbers;
     for (std::size_t k = 0; k < mesh_.curve_edges.size(); ++k) {
-      for (const std::int64_t id : mesh_.curve_edges[k])
-        if (id < 0 || id >= points)
-          ids.note([&] { return fmt::format("edge {}", k); });
       const std::int64_t number = mesh_.curve_numbers[k];
       if (number < 0 || number >= curves || mesh_.curve_labels[k] != parts + number + 1)
         numbers.note([&] { return fmt::format("edge {}", k); });
     }
-    report_.none("curve_ids", ids, "edges on curves with a point that does not exist");
     report_.none("curve_labels", numbers,
                  "edges on curves whose curve has no name, or whose label is not that of the curve after all parts");
-    return ids.count == 0;
   }
 
   const StoredFile& file_;

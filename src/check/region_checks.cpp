@@ -47,8 +47,6 @@ public:
   void run() {
     check_names();
     check_pairs();
-    if (!check_ids())
-      return;
     read_triangles();
     check_interfaces();
     check_numbers();
@@ -102,17 +100,6 @@ private:
     report_.none("interface_pairs", wrong,
                  "rows of /trime_mpi/interfaces that are not two regions in ascending order with the name `A|B` and "
                  "the next label after parts and curves");
-  }
-
-  /// Returns false if points do not exist, so that nothing more can be checked.
-  bool check_ids() {
-    Tally wrong;
-    for (std::size_t k = 0; k < mesh_.interfaces.size(); ++k)
-      for (const std::int64_t id : mesh_.interfaces[k])
-        if (id < 0 || id >= std::ssize(mesh_.points))
-          wrong.note([&] { return fmt::format("interface edge {}", k); });
-    report_.none("interface_ids", wrong, "edges between regions with a point that does not exist");
-    return wrong.count == 0;
   }
 
   /// Finds the edges between regions, and what belongs to each region.

@@ -153,7 +153,7 @@ DAMAGES = {
     "pair of an interface": (lambda f: change(f, FACES + "values", 7, 99), ["interface_regions", "interface_labels"]),
     "label of an interface": (lambda f: change(f, FACES + "labels", 7, 1), ["interface_labels"]),
     "curves of interfaces": (lambda f: change(f, FACES + "curves", slice(None), -1), ["interface_curves"]),
-    "a point that does not exist": (lambda f: change(f, FACES + "topology", (7, 1), 10**9), ["interface_ids"]),
+    "a point that does not exist": (lambda f: change(f, FACES + "topology", (7, 1), 10**9), ["id_range"]),
     "no labels of interfaces": (lambda f: f.__delitem__(FACES + "labels"), ["arrays"]),
     "labels of another type": (lambda f: replace(f, FACES + "labels", f[FACES + "labels"][:].astype(np.int64)),
                                ["arrays"]),
@@ -168,7 +168,7 @@ DAMAGES = {
     "sections of the config turned round": (other_config(r"\[region\.(left|low)\]", swapped), ["region_list"]),
     "a region of the config elsewhere": (other_config("x_max = 0.5", "x_max = 0.3"),
                                          ["region_places", "interface_places"]),
-    "a rest that must not be": (other_config(r"rest = top", "rest = top\ncover = all"), ["region_rest"]),
+    "a rest that must not be": (other_config("cover = rest", "cover = all"), ["region_rest"]),
 }
 IN_TABLE = {"triangles": lambda f: change(f, "trime_mpi/regions/triangles", 1, 5),
             "area": lambda f: change(f, "trime_mpi/regions/area", 1, 0.4999),
