@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/config.hpp"
 
+#include "app/config_inside.hpp"
 #include "app/config_sizing.hpp"
 #include "app/present_names.hpp"
 #include "app/settings.hpp"
@@ -22,9 +23,6 @@ namespace trime::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Defaults that stand for other values.
-constexpr const char *default_rest = "geometry", *own_name = "NAME";
 
 constexpr double shortest_side = 1e-30,
                  longest_side = 1e30; // products of four lengths must neither vanish nor overflow
@@ -120,65 +118,10 @@ PartOptions part_of(const Settings& settings, const std::string& name, const fs:
   return part;
 }
 
-CurveOptions curve_of(const Settings& settings, const std::string& name, const fs::path& directory,
-                      const RunOptions& options, Diagnostics& problems) {
-  const std::string section = "curve." + name;
-  CurveOptions curve;
-  curve.name = name;
-  curve.file_is_relative = fs::path(settings.text(section, "file")).is_relative();
-  curve.file = (directory / settings.text(section, "file")).lexically_normal().string();
-  if (const std::string attribute = settings.text(section, "attribute"); attribute != "none")
-    curve.attribute = attribute;
-  curve.clip = settings.boolean(section, "clip");
-  const std::string with = settings.text(section, "normalize_with");
-  if (with == "none")
-    return curve;
-  curve.normalize_with = with;
-  const auto is_it = [&](const PartOptions& part) { return part.name == with && part.normalize; };
-  if (std::none_of(options.parts.begin(), options.parts.end(), is_it))
-    problems.add(settings.line(section, "normalize_with"),
-                 fmt::format("'normalize_with = {}' in [{}]: expected the name of a part of type contour with "
-                             "'normalize = true'{}",
-                             shown(with), section, suggestion(with, settings.parts())));
-  return curve;
-}
-
-/// The expressions of regions must parse. Returns the parts that occur in them.
-std::set<int> read_regions(const Settings& settings, RunOptions& options, Diagnostics& problems) {
-  std::set<int> used;
-  options.regions_cover_all = settings.text("shape", "cover") == "all";
-  options.rest = settings.text("shape", "rest");
-  const bool has_rest = options.rest != default_rest;
-  if (!has_rest)
-    options.rest = options.geometry;
-  for (const std::string& name : settings.regions()) {
-    const std::string section = "region." + name;
-    RegionOptions& region = options.regions.emplace_back();
-    region = {name, settings.text(section, "geometry")};
-    const bool is_set = region.geometry != own_name;
-    if (!is_set)
-      region.geometry = name;
-    if (name == options.rest)
-      problems.add(settings.section_line(section),
-                   fmt::format("[{}] has the name of the rest of the shape; expected different names: set 'rest' in "
-                               "[shape]",
-                               shown(section)));
-    try {
-      const std::vector<int> parts = shape::Region::parse(region.geometry, settings.parts()).parts();
-      used.insert(parts.begin(), parts.end());
-    } catch (const Error& error) {
-      problems.add(is_set ? settings.line(section, "geometry") : settings.section_line(section),
-                   fmt::format("region '{}': {}", shown(name), error.what()));
-    }
-  }
-  if (options.regions.empty() && (options.regions_cover_all || has_rest))
-    problems.add(settings.line("shape", options.regions_cover_all ? "cover" : "rest"),
-                 "'rest' and 'cover' in [shape] need regions: add a section [region.NAME]");
-  return used;
-}
-
 /// The geometry must parse. Parts that neither it nor a region uses are worth a warning.
-void read_geometry(const Settings& settings, RunOptions& options, Diagnostics& problems) {
+/// @param in_regions the parts that occur in regions
+void read_geometry(const Settings& settings, const std::set<int>& in_regions, RunOptions& options,
+                   Diagnostics& problems) {
   options.geometry = settings.text("shape", "geometry");
   if (options.geometry.empty()) {
     if (!settings.is_set("shape", "geometry"))
@@ -191,7 +134,6 @@ void read_geometry(const Settings& settings, RunOptions& options, Diagnostics& p
   }
   try {
     const shape::Region region = shape::Region::parse(options.geometry, settings.parts());
-    const std::set<int> in_regions = read_regions(settings, options, problems);
     for (int part = 0; part < static_cast<int>(settings.parts().size()); ++part)
       if (!std::binary_search(region.parts().begin(), region.parts().end(), part) && !in_regions.contains(part))
         options.warnings.push_back(fmt::format("the part '{}' does not occur in the geometry '{}'{}, so it is left out",
@@ -226,17 +168,7 @@ void read_shape_options(const Settings& settings, const fs::path& directory, Run
                         Diagnostics& problems) {
   for (const std::string& name : settings.parts())
     options.parts.push_back(part_of(settings, name, directory, problems));
-  for (const std::string& name : settings.curves())
-    options.curves.push_back(curve_of(settings, name, directory, options, problems));
-  if (!options.curves.empty() && (settings.boolean("domain", "periodic_x") || settings.boolean("domain", "periodic_y")))
-    problems.add(
-        settings.section_line("curve." + options.curves[0].name),
-        "a periodic container cannot have curves inside yet: remove [curve.NAME], or periodic_x and periodic_y");
-  if (!settings.regions().empty() &&
-      (settings.boolean("domain", "periodic_x") || settings.boolean("domain", "periodic_y")))
-    problems.add(settings.section_line("region." + settings.regions()[0]),
-                 "a periodic container cannot have regions yet: remove [region.NAME], or periodic_x and periodic_y");
-  read_geometry(settings, options, problems);
+  read_geometry(settings, read_inside(settings, directory, options, problems), options, problems);
   read_projection(settings, options, problems);
 }
 

@@ -6,6 +6,7 @@
 #include "sizing/rules.hpp"
 #include "trime/core/error.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <string_view>
@@ -73,6 +74,9 @@ void read_gradation(const Settings& settings, RunOptions& options, Diagnostics& 
   }
   if (growth && *growth == 0) // the automatic size is uniform
     growth.reset();
+  const auto is_sized = [](const RegionOptions& region) { return region.size.has_value(); };
+  if (!growth && settings.text("sizing", "gradation") == "auto" && std::ranges::any_of(options.regions, is_sized))
+    growth = sizing::SizingRules::function_gradation;
 }
 
 /// A size that is a length needs no number of points, and a uniform one needs the length.

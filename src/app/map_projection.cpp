@@ -184,9 +184,10 @@ void prepare_degrees(const RunOptions& options, std::span<Contour> contours, Log
     if (!projection::is_geographic(system_of(contour)))
       continue;
     check_degrees(contour);
-    if (k >= options.parts.size()) // lines of curves, which are not joined
+    const std::size_t first_region = options.parts.size() + options.curves.size();
+    if (k >= options.parts.size() && k < first_region) // lines of curves, which are not joined
       continue;
-    const bool united = options.parts[k].dissolve;
+    const bool united = k >= first_region || options.parts[k].dissolve;
     const double length =
         contours::join_at_date_line(contour, united ? contours::DateLine::each_separate : contours::DateLine::join);
     if (length > 0)

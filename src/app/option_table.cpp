@@ -174,8 +174,33 @@ const Option table[] = {
      .choices = "NAME",
      .meaning =
          "the region NAME of the shape, such as a material, as an expression over the same parts as `geometry` in "
-         "[shape]; without this key, the part with the name of the region. The first region that contains a "
-         "place has it"},
+         "[shape]; without this key and `file`, the part with the name of the region. The first region that "
+         "contains a place has it"},
+    {.section = "region.NAME",
+     .key = "file",
+     .kind = OptionKind::path,
+     .fallback = "none",
+     .choices = "none",
+     .meaning = "instead of `geometry`: a file with the polygons of the region, in one of the formats of contours. "
+                "Polygons of a `.geojson` or `.shp` may overlap and share borders"},
+    {.section = "region.NAME",
+     .key = "attribute",
+     .kind = OptionKind::text,
+     .fallback = "none",
+     .meaning = "an attribute of the features of a `.geojson` or `.shp`, such as `unit`: each value makes a region "
+                "`NAME.VALUE`"},
+    {.section = "region.NAME",
+     .key = "normalize_with",
+     .kind = OptionKind::text,
+     .fallback = "none",
+     .meaning = "name of a normalised contour; the polygons of the file are moved and scaled in the same way"},
+    {.section = "region.NAME",
+     .key = "size",
+     .fallback = "none",
+     .choices = "none",
+     .range = {.low = 0, .low_excluded = true},
+     .meaning = "largest size in the region: a length with `scale = absolute` in [sizing], otherwise relative to the "
+                "size of [sizing], so that 0.5 halves a uniform size. The size grows from there by `gradation`"},
 
     {.section = "curve.NAME",
      .key = "file",

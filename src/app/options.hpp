@@ -40,7 +40,12 @@ struct PartOptions {
 /// One section [region.NAME] of a config.
 struct RegionOptions {
   std::string name;
-  std::string geometry; ///< the expression that joins the parts of the region
+  std::string geometry;          ///< the expression that joins the parts of the region; empty if there is a file
+  std::string file;              ///< path, as PartOptions::file; empty: no file
+  bool file_is_relative = false; ///< true if the user gave the path relative to the config file
+  std::string attribute;         ///< attribute of map features that divides the file; empty: no attribute
+  std::string normalize_with;    ///< name of the contour whose normalisation is applied; empty: no normalisation
+  std::optional<double> size;    ///< largest size in the region
 };
 
 /// One section [curve.NAME] of a config.
@@ -81,7 +86,7 @@ struct CheckpointOptions {
 struct RunOptions {
   std::vector<PartOptions> parts;
   std::vector<RegionOptions> regions; ///< in the order of their sections
-  std::string rest;                   ///< name of what lies in no region
+  std::string rest;                   ///< name of what lies in no region; empty: the text of `geometry`
   bool regions_cover_all = false;     ///< whether a place in no region is an error
   std::vector<CurveOptions> curves;   ///< curves inside the shape
   std::string geometry;               ///< the expression that joins the parts of the shape

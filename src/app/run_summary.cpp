@@ -106,6 +106,16 @@ std::string names_text(const geometry::Boundary& boundary, const std::vector<std
   return all == named ? text : text + fmt::format(", and {} more names", all - named);
 }
 
+/// The regions that have triangles, in the order of their numbers.
+std::string regions_text(const std::vector<std::string>& names, const std::vector<meshing::RegionSummary>& regions) {
+  std::string text;
+  std::size_t named = 0, all = 0;
+  for (std::size_t k = 0; k < regions.size(); ++k)
+    if (regions[k].triangles > 0 && ++all <= most_names)
+      text += fmt::format("{}{} {}", named++ == 0 ? "triangles of " : ", ", names.at(k), regions[k].triangles);
+  return all == named ? text : text + fmt::format(", and {} more regions", all - named);
+}
+
 std::string checks_text(const mesh::Checks& checks) {
   const auto passed =
       std::count_if(checks.begin(), checks.end(), [](const mesh::Check& check) { return check.passed; });
@@ -158,6 +168,7 @@ std::string run_summary(const RunFacts& facts) {
       line("Quality", quality_text(result.quality)) + line("Shortest", shortest_text(result.quality)) +
       line("Boundary", boundary_text(result.features)) +
       line("Names", names_text(facts.provenance.boundary, facts.part_edges)) +
+      line("Regions", regions_text(facts.provenance.origin.regions.names, result.regions)) +
       line("Sweeps", fmt::format("{}: {}", sweeps, sweep::to_string(result.stop_reason))) +
       line("Checks", checks_text(result.checks)) + line("Mesh hash", fmt::format("{:016x}", result.mesh.hash)) +
       line("Time", time_text(facts.measured)) + line("Files", files_text(facts.files));

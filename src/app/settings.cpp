@@ -228,8 +228,7 @@ std::string Settings::resolved(const std::string& directory) const {
       if (option.section != table_section(section) || (*option.part_type != '\0' && option.part_type != type))
         continue;
       std::string value = text(section, option.key);
-      const bool from_config = table_section(section) == part_section || table_section(section) == curve_section ||
-                               option.section == std::string_view("meshing");
+      const bool from_config = named(section) != nullptr || option.section == std::string_view("meshing");
       if (option.kind == OptionKind::path && from_config && value != option.fallback)
         value = fs::absolute(fs::path(directory) / value).lexically_normal().string();
       result +=

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/shape_builder.hpp"
 
+#include "boundary/rules.hpp"
 #include "comm/agree.hpp"
 #include "contours/faults.hpp"
 #include "contours/map_features.hpp"
@@ -22,6 +23,10 @@ namespace {
 
 // [h] Where nothing is simplified, rings that touch are separated by this: triangles around the gap are about as small.
 constexpr double kept_gap = 0.1;
+// [h] Faces between regions that are narrower belong to the region next to them. Not measured.
+constexpr double narrowest_face = 0.1;
+// [mean h] Where the size varies, it may be so small at a face. Not measured.
+constexpr double least_local_size = 0.1;
 // [h] Gaps between united polygons that are narrower are closed: they come from polygons that were digitised one by
 // one. Not measured.
 constexpr double closed_gap = 0.01;
@@ -47,6 +52,8 @@ RunOptions with_used_parts(const RunOptions& options) {
   const std::vector<int> in_shape = region_of(options).parts();
   std::set<int> found(in_shape.begin(), in_shape.end());
   for (const RegionOptions& region : options.regions) {
+    if (!region.file.empty())
+      continue;
     const std::vector<int> in_region = shape::Region::parse(region.geometry, names).parts();
     found.insert(in_region.begin(), in_region.end());
   }
@@ -54,9 +61,10 @@ RunOptions with_used_parts(const RunOptions& options) {
   used.parts.clear();
   for (int k = 0; k < static_cast<int>(options.parts.size()); ++k) {
     const PartOptions& part = options.parts[static_cast<std::size_t>(k)];
-    const auto follows = [&](const CurveOptions& curve) { return curve.normalize_with == part.name; };
+    const auto follows = [&](const auto& inside) { return inside.normalize_with == part.name; };
     if (found.contains(k) || part.name == options.fixed_points.normalize_with ||
-        std::any_of(options.curves.begin(), options.curves.end(), follows) || part.name == shape::domain_name)
+        std::any_of(options.curves.begin(), options.curves.end(), follows) ||
+        std::any_of(options.regions.begin(), options.regions.end(), follows) || part.name == shape::domain_name)
       used.parts.push_back(part);
   }
   return used;
@@ -69,7 +77,8 @@ contours::Faults faults_of(const PartOptions& part) {
 /// The rings of parts that are contours, by part, projected. Rank 0 reads. Collective.
 std::vector<contours::Contour> read_contours(const RunOptions& options, const comm::Communicator& comm, Log& log,
                                              MapSystem& map) {
-  std::vector<contours::Contour> contours(options.parts.size() + options.curves.size()); // curves last
+  std::vector<contours::Contour> contours(options.parts.size() + options.curves.size() +
+                                          options.regions.size()); // in this order
   comm::run_agreed(comm, [&] {
     if (!comm.is_root())
       return;
@@ -94,6 +103,11 @@ std::vector<contours::Contour> read_contours(const RunOptions& options, const co
           curve.file, fmt::format("; 'file' in [curve.{}]{}", curve.name, hint_of(curve.file_is_relative)),
           curve.attribute);
     }
+    for (std::size_t k = 0; k < options.regions.size(); ++k)
+      if (const RegionOptions& region = options.regions[k]; !region.file.empty())
+        contours[options.parts.size() + options.curves.size() + k] = contours::read_contour(
+            region.file, fmt::format("; 'file' in [region.{}]{}", region.name, hint_of(region.file_is_relative)),
+            region.attribute);
     map = project_contours(options, contours, log);
   });
   if (comm.size() > 1)
@@ -134,13 +148,18 @@ geometry::Box automatic_container(const RunOptions& options, std::span<const con
   return geometry::container_around(region_of(options).box(boxes));
 }
 
+/// The size of the triangles before anything is known of the shape.
+double estimated_size(const RunOptions& options, const geometry::Box& container) {
+  return options.mesh.edge_length.value_or(fitting::estimated_size(
+      container.width() * container.height(), 0, static_cast<double>(options.mesh.points.value_or(1000))));
+}
+
 /// How rings of a contour that touch are separated, and gaps between united polygons closed, at the size h of the
 /// triangles.
 shape::TouchOptions touch_options(const RunOptions& options, const PartOptions& part, bool outside,
                                   const geometry::Box& container) {
   const boundary::FeatureOptions& features = options.mesh.features;
-  const double h = options.mesh.edge_length.value_or(fitting::estimated_size(
-      container.width() * container.height(), 0, static_cast<double>(options.mesh.points.value_or(1000))));
+  const double h = estimated_size(options, container);
   const bool keeps_all = features.keep_all || !(features.within > 0); // nothing widens a gap later
   return {.outside = outside,
           .dissolve = part.dissolve,
@@ -165,6 +184,14 @@ shape::Part build_part(const PartOptions& part, const contours::Contour& contour
   return shape::Part::contour(part.name, contour, place, frame, touches);
 }
 
+/// The name of a curve or a region: NAME, or NAME.VALUE for a value of an attribute.
+std::string name_of_value(const std::string& name, int marker, const contours::Contour& contour) {
+  const std::vector<std::string>& values = contour.marker_names;
+  return marker == 0      ? name
+         : values.empty() ? fmt::format("{}.{}", name, marker)
+                          : name + "." + values[static_cast<std::size_t>(marker - 1)];
+}
+
 /// The curves NAME, or NAME.VALUE for each value of an attribute, in the order of their first lines.
 void add_lines(const CurveOptions& options, const contours::Contour& contour, const contours::Normalization& place,
                const geometry::Frame& frame, shape::InnerParts& parts) {
@@ -175,10 +202,7 @@ void add_lines(const CurveOptions& options, const contours::Contour& contour, co
     const int marker = ring.markers.empty() ? 0 : ring.markers.front();
     const auto [found, is_new] = number_of.try_emplace(marker, names.size());
     if (is_new) {
-      const std::vector<std::string>& values = contour.marker_names;
-      names.push_back(marker == 0      ? options.name
-                      : values.empty() ? fmt::format("{}.{}", options.name, marker)
-                                       : options.name + "." + values[static_cast<std::size_t>(marker - 1)]);
+      names.push_back(name_of_value(options.name, marker, contour));
       lines.emplace_back();
     }
     shape::CurveLine& line = lines[found->second].emplace_back();
@@ -192,6 +216,28 @@ void add_lines(const CurveOptions& options, const contours::Contour& contour, co
     parts.curves.push_back(shape::Part::curve(names[k], std::move(lines[k]), frame));
     parts.clip.push_back(options.clip ? 1 : 0);
   }
+}
+
+/// The polygons of a file by the value of their attribute, in the order of the first ring of each.
+std::vector<std::pair<std::string, contours::Contour>> divided(const std::string& name,
+                                                               const contours::Contour& contour) {
+  std::map<int, std::size_t> number_of; // by marker
+  std::vector<std::pair<std::string, contours::Contour>> all;
+  for (const contours::ContourRing& ring : contour.rings) {
+    const int marker = ring.markers.empty() ? 0 : ring.markers.front();
+    const auto [found, is_new] = number_of.try_emplace(marker, all.size());
+    if (is_new) {
+      contours::Contour& one = all.emplace_back(name_of_value(name, marker, contour), contours::Contour()).second;
+      one.source = contour.source;
+      one.features = contour.features;
+      one.crs = contour.crs;
+      one.is_map = contour.is_map;
+      one.in_degrees = contour.in_degrees;
+    }
+    contours::ContourRing& copy = all[found->second].second.rings.emplace_back(ring);
+    copy.markers.clear();
+  }
+  return all;
 }
 
 void tell_of_file(const contours::Contour& contour, Log& log) {
@@ -231,17 +277,31 @@ void tell_of(const geometry::Regions& regions, Log& log) {
         "comes first",
         regions.names[static_cast<std::size_t>(overlap.first)], regions.names[static_cast<std::size_t>(overlap.second)],
         overlap.area, Place(overlap.place, 6), regions.names[static_cast<std::size_t>(overlap.first)]);
+  if (const geometry::AbsorbedFaces& absorbed = regions.absorbed; absorbed.count > 0)
+    log.summary(
+        "{} part{} of regions with a total area of {:.6g} {} smaller or narrower than the triangles and {} to the "
+        "region next to {}; the largest has an area of {:.6g} and lies at {}. keep_features = true keeps all",
+        absorbed.count, absorbed.count == 1 ? "" : "s", absorbed.area, absorbed.count == 1 ? "is" : "are",
+        absorbed.count == 1 ? "belongs" : "belong", absorbed.count == 1 ? "it" : "them", absorbed.largest,
+        Place(absorbed.place, 6));
   for (std::size_t k = 1; k < regions.names.size(); ++k)
     if (regions.outside[k] > 0)
       log.summary("region '{}': an area of {:.6g} lies outside of the shape and is left out", regions.names[k],
                   regions.outside[k]);
 }
 
-shape::Division division_of(const RunOptions& options) {
-  shape::Division division{{}, options.rest, options.regions_cover_all};
-  for (const RegionOptions& region : options.regions)
-    division.regions.push_back({region.name, region.geometry});
-  return division;
+/// Sets which faces between regions are too small for the triangles.
+void set_least_faces(const RunOptions& options, const geometry::Box& container, shape::Division& division) {
+  const boundary::FeatureOptions& features = options.mesh.features;
+  if (features.keep_all || !(features.within > 0))
+    return;
+  const bool is_uniform =
+      options.sizing.type == "uniform" && options.sizing.size_at.empty() &&
+      std::ranges::none_of(options.regions, [](const RegionOptions& region) { return region.size.has_value(); });
+  const double length = length_of(options).length;
+  const double h = (length > 0 ? length : estimated_size(options, container)) * (is_uniform ? 1 : least_local_size);
+  division.least_perimeter = boundary::BoundaryRules::least_perimeter * h;
+  division.least_width = narrowest_face * h;
 }
 
 void tell_of(const shape::Part& part, Log& log) {
@@ -289,6 +349,27 @@ public:
     tell_of(parts.back(), log_);
   }
 
+  /// Adds a region, or one for each value of the attribute of its file. @pre all parts were added
+  void add_region(const RegionOptions& region, const contours::Contour& contour) {
+    shape::Division& division = inner.division;
+    if (region.file.empty()) {
+      division.regions.push_back({region.name, region.geometry});
+      return;
+    }
+    const contours::Normalization place =
+        region.normalize_with.empty() ? contours::Normalization{} : places.at(region.normalize_with);
+    tell_of_file(contour, log_);
+    if (keeps_places_)
+      found.add(contour, place);
+    for (const auto& [name, polygons] : divided(region.name, contour)) {
+      division.regions.push_back({name, {}, static_cast<int>(division.parts.size())});
+      division.parts.push_back(shape::Part::contour(name, polygons, place, frame_,
+                                                    {.dissolve = contour.is_map, .faults = contours::Faults::refuse}));
+      for (const std::string& warning : division.parts.back().warnings())
+        log_.warning("{}", warning);
+    }
+  }
+
   /// @pre all parts were added
   void add_curve(const CurveOptions& curve, const contours::Contour& contour) {
     const contours::Normalization place =
@@ -329,7 +410,11 @@ ShapeInput read_shape(const RunOptions& given, ShapeUse use, const comm::Communi
     made.add_part(k, contours[k]);
   for (std::size_t k = 0; k < options.curves.size(); ++k)
     made.add_curve(options.curves[k], contours[options.parts.size() + k]);
-  made.inner.division = division_of(options);
+  for (std::size_t k = 0; k < options.regions.size(); ++k)
+    made.add_region(options.regions[k], contours[options.parts.size() + options.curves.size() + k]);
+  made.inner.division.rest = options.rest;
+  made.inner.division.cover_all = options.regions_cover_all;
+  set_least_faces(options, frame.container(), made.inner.division);
   if (!map.crs.empty())
     made.found.set_on_earth([map](geometry::Vec2 place) { return on_earth(map, place); });
   places = std::move(made.found);

@@ -3,6 +3,7 @@
 
 #include "sizing/boundary_distance.hpp"
 #include "sizing/distance_size.hpp"
+#include "sizing/region_size.hpp"
 #include "trime/core/error.hpp"
 #include "trime/sizing/automatic_size.hpp"
 #include "trime/sizing/size_field.hpp"
@@ -123,17 +124,35 @@ void check_names(const RunOptions& options, const geometry::Domain& domain) {
 void lower_at_boundary(const RunOptions& options, const geometry::Domain& domain, BuiltSize& size) {
   const SizingOptions& sizing = options.sizing;
   const double gradation = options.mesh.gradation.value();
-  size.base = std::move(size.field);
+  size.bases.push_back(std::move(size.field));
   check_names(options, domain);
   try {
-    size.field = std::make_unique<const sizing::BoundarySize>(*size.base, sizing::named_curves(domain), sizing.size_at,
-                                                              gradation, images_of(domain));
+    size.field = std::make_unique<const sizing::BoundarySize>(*size.bases.back(), sizing::named_curves(domain),
+                                                              sizing.size_at, gradation, images_of(domain));
   } catch (const ConfigError& error) {
     throw ConfigError(fmt::format("{}: {}", sizing.size_at_place, error.what()));
   }
   for (const sizing::NamedSize& named : sizing.size_at)
     size.description += fmt::format(", {:.6g} at {}", named.size, named.name);
   size.description += fmt::format(" with gradation {:.6g}", gradation);
+}
+
+/// Bounds the size in regions.
+void lower_in_regions(const RunOptions& options, const geometry::Domain& domain, BuiltSize& size) {
+  const std::vector<std::string>& names = domain.regions().names;
+  std::vector<sizing::RegionBound> bounds;
+  for (const RegionOptions& region : options.regions) {
+    if (!region.size)
+      continue;
+    for (std::size_t k = 1; k < names.size(); ++k)
+      if (names[k] == region.name || (!region.file.empty() && names[k].starts_with(region.name + ".")))
+        bounds.push_back({static_cast<int>(k), *region.size});
+    size.description += fmt::format(", {:.6g} in {}", *region.size, region.name);
+  }
+  if (bounds.empty())
+    return;
+  size.bases.push_back(std::move(size.field));
+  size.field = std::make_unique<const sizing::RegionSize>(*size.bases.back(), domain, std::move(bounds));
 }
 
 } // namespace
@@ -150,6 +169,7 @@ BuiltSize build_size(const RunOptions& options, const geometry::Domain& domain, 
         options.mesh.absolute_sizes ? options.mesh.max_size.value_or(1) : 1.0);
     size.description = "uniform";
   }
+  lower_in_regions(options, domain, size);
   if (!options.sizing.size_at.empty())
     lower_at_boundary(options, domain, size);
   if (options.mesh.absolute_sizes)

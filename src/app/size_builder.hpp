@@ -11,13 +11,14 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace trime::app {
 
 /// A size field together with the objects that it refers to. Move-only.
 struct BuiltSize {
-  std::unique_ptr<const DistanceFormula> formula; ///< the formula, if the size is an expression
-  std::unique_ptr<const sizing::SizeField> base;  ///< the size that `field` lowers, if the key size_at is set
+  std::unique_ptr<const DistanceFormula> formula;              ///< the formula, if the size is an expression
+  std::vector<std::unique_ptr<const sizing::SizeField>> bases; ///< sizes that `field` lowers in regions or on lines
   std::unique_ptr<const sizing::SizeField> field;
   std::string description; ///< text for the report, such as "automatic, gradation 0.1, features of 0.004 and more"
 };

@@ -79,7 +79,9 @@ private:
       }
       const polygon::InnerChord& chord = inner.chords[static_cast<std::size_t>(*half / 2)];
       const bool forth = *half % 2 == 0;
-      const bool agrees = left == (forth ? chord.left : chord.right) && right == (forth ? chord.right : chord.left);
+      const bool agrees = chord.left == chord.right ? left == right
+                                                    : left == (forth ? chord.left : chord.right) &&
+                                                          right == (forth ? chord.right : chord.left);
       counts_.wrong += !agrees;
       counts_.interfaces += forth && agrees && left != right;
     }

@@ -309,8 +309,15 @@ MeshResult Run::extract() {
                                          result.mesh);
     certificate::RegionProof proof = certificate::prove_regions(view, numbering, regions, result.mesh);
     std::ranges::copy(proof.checks, std::back_inserter(result.checks));
-    for (std::size_t k = 0; k < proof.areas.size(); ++k)
-      result.regions.push_back({proof.triangles[k], proof.areas[k], run_.domain.regions().areas[k]});
+    const geometry::Regions& given = run_.domain.regions();
+    for (std::size_t k = 0; k < proof.areas.size(); ++k) {
+      if (proof.triangles[k] == 0 && k > 0)
+        run_.log.warning("the region '{}', of area {:.6g}, has no triangles: all of it is smaller or narrower than the "
+                         "triangles and belongs to the regions around it; use more points, or keep_features = true in "
+                         "[meshing]",
+                         given.names[k], given.areas[k]);
+      result.regions.push_back({proof.triangles[k], proof.areas[k], given.areas[k]});
+    }
   }
   result.checks.push_back(extraction::worst_alpha_check(result.quality, run_.options.worst_alpha));
   if (run_.fit.gradation || run_.relative_size.is_uniform()) // else the size may jump from point to point

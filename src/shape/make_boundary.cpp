@@ -12,10 +12,12 @@
 #include "shape/parts_beside.hpp"
 #include "shape/region_sides.hpp"
 #include "shape/region_state.hpp"
+#include "shape/small_faces.hpp"
 #include "shape/vertex_table.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -85,7 +87,9 @@ public:
     std::vector<std::int32_t> markers = name_markers(boundary_, given_, frame_);
     geometry::InnerCurves curves = inside_.curves(on_boundary_, boundary_);
     geometry::Domain domain(frame_, std::move(boundary_), std::move(markers));
-    domain.set_regions(sides_.regions(curves.arcs, least, region_.text()));
+    geometry::Regions regions = sides_.regions(curves.arcs, least, region_.text());
+    regions.absorbed = absorbed_;
+    domain.set_regions(std::move(regions));
     domain.set_curves(std::move(curves));
     return domain;
   }
@@ -115,7 +119,10 @@ private:
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
     for (const int index : used) {
-      const Part& part = index < static_cast<int>(parts.size()) ? parts[index] : domain_;
+      const auto count = static_cast<int>(parts.size());
+      const Part& part = index < count    ? parts[index]
+                         : index == count ? domain_
+                                          : inner_.division.parts[static_cast<std::size_t>(index - count - 1)];
       check_frame(part, frame_);
       for (const Vec2 shift : image_shifts(part, frame_))
         placed.push_back({&part, index, shift});
@@ -132,11 +139,22 @@ private:
     return placed;
   }
   /// The index of the first curve; parts and the domain have lower ones.
-  int first_curve() const { return static_cast<int>(given_.size()) + 1; }
+  int first_curve() const { return static_cast<int>(given_.size() + 1 + inner_.division.parts.size()); }
+  /// Does the part occur in the expression of the shape, and not only in that of a region?
+  bool bounds_shape(int place) const {
+    return std::binary_search(region_.parts().begin(), region_.parts().end(),
+                              placed_[static_cast<std::size_t>(place)].index);
+  }
   bool has_inside() const { return !inner_.curves.empty() || sides_.any(); }
   bool is_curve(int place) const { return placed_[static_cast<std::size_t>(place)].index >= first_curve(); }
 
-  int index_of(const Arrangement::Piece& piece) const { return placed_[piece.part].index; }
+  /// The first part of the shape along the piece.
+  int index_of(const Arrangement::Piece& piece) const {
+    int place = piece.part;
+    for (LocalIndex t = piece.first_twin; !bounds_shape(place) && t < piece.first_twin + piece.twin_count; ++t)
+      place = arrangement_.twins()[t].part;
+    return placed_[static_cast<std::size_t>(place)].index;
+  }
   bool holds(RegionState& state, const std::vector<int>& places) const;
   geometry::BoxTree tree_of_places() const;
   /// Where a vertex lies once it is an exact image of its node.
@@ -147,6 +165,8 @@ private:
   void set_region(const std::vector<int>& places, const Piece& piece, Side& side);
   Piece piece_of(const Arrangement::Piece& source) const;
   void keep_if_border(LocalIndex k, const Side& left, const Side& right);
+  void keep(LocalIndex k, const Side& left, const Side& right);
+  void keep_divided(std::vector<std::array<Side, 2>>& sides);
   void note_curves();
   void check_container() const;
   void link();
@@ -170,6 +190,7 @@ private:
   std::vector<LocalIndex> next_;                // the kept piece that leaves each node, or -1
   std::vector<char> on_boundary_, meets_curve_; // by vertex; empty if there are no curves and regions
   std::vector<int> parts_of_side_;              // work space
+  geometry::AbsorbedFaces absorbed_;
   Boundary boundary_;
 };
 
@@ -187,11 +208,13 @@ Vec2 BoundaryMaker::middle(const Arrangement::Piece& piece) const {
 /// @param state without parts; it is so after, too
 bool BoundaryMaker::holds(RegionState& state, const std::vector<int>& places) const {
   for (const int place : places)
-    if (const int index = placed_[static_cast<std::size_t>(place)].index; index != cut_index && !is_curve(place))
+    if (const int index = placed_[static_cast<std::size_t>(place)].index;
+        index != cut_index && index <= static_cast<int>(given_.size()))
       state.enter(index);
   const bool held = state.contains();
   for (const int place : places)
-    if (const int index = placed_[static_cast<std::size_t>(place)].index; index != cut_index && !is_curve(place))
+    if (const int index = placed_[static_cast<std::size_t>(place)].index;
+        index != cut_index && index <= static_cast<int>(given_.size()))
       state.leave(index);
   return held;
 }
@@ -216,6 +239,7 @@ void BoundaryMaker::classify() {
     walks.emplace_back(*placed.part);
   const std::vector<Arrangement::Piece>& pieces = arrangement_.pieces();
   kept_.reserve(pieces.size());
+  std::vector<std::array<Side, 2>> sides;
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     const Arrangement::Piece& piece = pieces[k];
     beside.begin();
@@ -229,15 +253,52 @@ void BoundaryMaker::classify() {
         beside.add_on_both(static_cast<int>(place));
     });
     Side left = side_of(state, beside.left()), right = side_of(state, beside.right());
-    if (sides_.any()) {
-      const Piece along = piece_of(piece);
-      set_region(beside.left(), along, left);
-      set_region(beside.right(), reversed(along), right);
+    if (!sides_.any()) {
+      keep(static_cast<LocalIndex>(k), left, right);
+      continue;
     }
-    keep_if_border(static_cast<LocalIndex>(k), left, right);
-    if (has_inside())
-      inside_.look_at(static_cast<LocalIndex>(k), left, right, p);
+    const Piece along = piece_of(piece);
+    set_region(beside.left(), along, left);
+    set_region(beside.right(), reversed(along), right);
+    sides.push_back({left, right});
   }
+  if (sides_.any())
+    keep_divided(sides);
+}
+
+void BoundaryMaker::keep(LocalIndex k, const Side& left, const Side& right) {
+  keep_if_border(k, left, right);
+  if (has_inside())
+    inside_.look_at(k, left, right, middle(arrangement_.pieces()[k]));
+}
+
+/// Keeps the pieces between regions, once small faces belong to their neighbours.
+/// @param sides left and right side of each piece
+void BoundaryMaker::keep_divided(std::vector<std::array<Side, 2>>& sides) {
+  const Division& division = inner_.division;
+  if (division.least_perimeter > 0 || division.least_width > 0) {
+    std::vector<LabelledPiece> pieces;
+    const auto label = [](const Side& side) { return side.is_region ? side.region : -1; };
+    for (std::size_t k = 0; k < sides.size(); ++k)
+      if (const auto& [left, right] = sides[k]; label(left) != label(right)) {
+        const Arrangement::Piece& piece = arrangement_.pieces()[k];
+        pieces.push_back(
+            {piece.from, piece.to, piece_of(piece), label(left), label(right), static_cast<LocalIndex>(k)});
+      }
+    std::vector<char> is_border(sides.size(), 0);
+    absorbed_ = absorb_small_faces(pieces, division.least_perimeter, division.least_width);
+    for (const LabelledPiece& piece : pieces) {
+      auto& [left, right] = sides[static_cast<std::size_t>(piece.number)];
+      is_border[static_cast<std::size_t>(piece.number)] = 1;
+      left.region = std::max(0, piece.left);
+      right.region = std::max(0, piece.right);
+    }
+    for (std::size_t k = 0; k < sides.size(); ++k)
+      if (is_border[k] == 0) // the same region on both sides by now
+        sides[k][1].region = sides[k][0].region;
+  }
+  for (std::size_t k = 0; k < sides.size(); ++k)
+    keep(static_cast<LocalIndex>(k), sides[k][0], sides[k][1]);
 }
 
 /// Sets the region of the left side of a piece, and counts the area under the piece for it.

@@ -139,6 +139,14 @@ Region Region::parse(std::string_view text, std::span<const std::string> part_na
   return region;
 }
 
+Region Region::of_part(int part, std::string_view text) {
+  Region region;
+  region.text_ = text;
+  region.nodes_ = {{Operation::part, part, {}}};
+  region.parts_ = {part};
+  return region;
+}
+
 bool Region::subtracts(int node, int part, bool even) const {
   const Node& n = nodes_[static_cast<std::size_t>(node)];
   if (n.operation == Operation::part)

@@ -15,17 +15,19 @@ constexpr double overlap_share = 1e-6;
 } // namespace
 
 RegionSides::RegionSides(const Division& division, std::span<const std::string> part_names)
-    : division_(division), regions_of_(part_names.size() + 1) {
+    : division_(division), regions_of_(part_names.size() + 1 + division.parts.size()) {
   const std::size_t count = division.regions.size();
   expressions_.reserve(count); // the states refer to them
   for (const NamedRegion& region : division.regions)
     try {
-      expressions_.push_back(Region::parse(region.geometry, part_names));
+      expressions_.push_back(region.part >= 0
+                                 ? Region::of_part(static_cast<int>(part_names.size()) + 1 + region.part, region.name)
+                                 : Region::parse(region.geometry, part_names));
     } catch (const Error& error) {
       throw ConfigError(fmt::format("region '{}': {}", region.name, error.what()));
     }
   for (std::size_t k = 0; k < count; ++k) {
-    states_.emplace_back(expressions_[k], part_names.size() + 1);
+    states_.emplace_back(expressions_[k], regions_of_.size());
     for (const int part : expressions_[k].parts())
       regions_of_[static_cast<std::size_t>(part)].push_back(k + 1);
   }

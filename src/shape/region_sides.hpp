@@ -19,7 +19,7 @@ namespace trime::shape {
 /// theorem, so no face of the arrangement is ever searched. Cost: O(occurrences of the parts of a side).
 class RegionSides {
 public:
-  /// @param part_names without the domain
+  /// @param part_names without the domain, which follows them; then come Division::parts
   /// @throws ConfigError if an expression cannot be parsed, with the name of the region
   RegionSides(const Division& division, std::span<const std::string> part_names);
 

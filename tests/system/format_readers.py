@@ -16,14 +16,16 @@ world = MPI.COMM_WORLD
 gmsh.initialize()
 gmsh.option.setNumber("General.Terminal", 0)
 
-def save(mesh, tags, path):
+def save(mesh, tags, cells, path):
     def own(dimension):
         return np.arange(mesh.topology.index_map(dimension).size_local, dtype=np.int32)
-    kept = tags.indices < len(own(1))
-    middles = compute_midpoints(mesh, 1, tags.indices[kept])[:, :2]
+    def middles(dimension, tags):
+        kept = tags.indices < len(own(dimension))
+        return np.column_stack([compute_midpoints(mesh, dimension, tags.indices[kept])[:, :2], tags.values[kept]])
     parts = {"points": mesh.geometry.x[:mesh.geometry.index_map().size_local, :2],
-             "triangles": compute_midpoints(mesh, 2, own(2))[:, :2],
-             "edges": np.column_stack([middles, tags.values[kept]])}
+             "triangles": compute_midpoints(mesh, 2, own(2))[:, :2], "edges": middles(1, tags)}
+    if cells is not None:
+        parts["regions"] = middles(2, cells)
     whole = {name: world.gather(part) for name, part in parts.items()}
     if world.rank == 0:
         np.savez(path, **{name: np.vstack(part) for name, part in whole.items()})
@@ -32,12 +34,13 @@ for stem in sys.argv[1:]:
     if world.rank == 0:
         gmsh.open(stem + ".msh")
     mesh, cells, facets = gmshio.model_to_mesh(gmsh.model, world, 0, gdim=2)
-    save(mesh, facets, stem + ".msh.npz")
+    save(mesh, facets, cells, stem + ".msh.npz")
     with XDMFFile(world, stem + ".xdmf", "r") as file:
         mesh = file.read_mesh(name="mesh")
+        cells = file.read_meshtags(mesh, name="mesh") if stem.endswith("layers") else None
     mesh.topology.create_connectivity(1, 2)
     with XDMFFile(world, stem + ".xmf", "r") as file:
-        save(mesh, file.read_meshtags(mesh, name="facets"), stem + ".xdmf.npz")
+        save(mesh, file.read_meshtags(mesh, name="facets"), cells, stem + ".xdmf.npz")
 """
 BY_QGIS = """
 import os
@@ -72,7 +75,7 @@ BY_FREEFEM = """
 
 
 class Expected:
-    """The content of the HDF5 file."""
+    """The content of the HDF5 file. `edges` and `parts` are those of the boundary, of curves and of interfaces."""
 
     def __init__(self, path):
         with h5py.File(path) as file:
@@ -86,6 +89,27 @@ class Expected:
             self.parts = {name.decode(): int(number) + 1 for name, number in zip(tags["part_name"], tags["part_id"])}
             self.holes = list(tags["edge_kind"]).count(b"hole")
             self.regions = {name.decode(): int(number) for name, number in zip(tags["region_name"], tags["region_id"])}
+            self.region = file["/VTKHDF/CellData/region"][:]
+            self.rim, self.rim_labels, self.rim_parts = self.edges, self.labels, dict(self.parts)
+            if "interfaces" in file["Mesh"]:
+                self.add_inner_edges(file)
+
+    def add_inner_edges(self, file):
+        """Adds curves and interfaces, with the labels of their own arrays."""
+        for group, name in (("curves", "curve_name"), ("interfaces", "pair_name")):
+            arrays, table = file["Mesh"][group], file["trime_mpi"][group]
+            kept = arrays["curves"][:] < 0 if group == "interfaces" else slice(None)
+            self.edges = np.vstack([self.edges, arrays["topology"][:][kept]])
+            self.labels = np.concatenate([self.labels, arrays["labels"][:][kept]])
+            self.parts |= {name.decode(): int(label) for name, label in zip(table[name], table["label"])}
+
+    def regions_with_triangles(self):
+        """As parts_with_edges."""
+        return {name: number for name, number in self.regions.items() if number in self.region}
+
+    def rim_rows(self):
+        """Boundary edges with their label, in one order."""
+        return rows(self.rim, self.rim_labels)
 
     def edge_rows(self):
         """Edges with their label, in one order."""

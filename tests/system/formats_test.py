@@ -54,19 +54,56 @@ radius = 0.1
 [meshing]
 points = 1500
 """
+# No triangle belongs to the rest. A part of the curve lies on an interface.
+LAYERS = """[shape]
+geometry = difference(box, hole)
+rest = nothing
+[shape.box]
+type = rectangle
+x_min = 0.1
+x_max = 0.9
+y_min = 0.1
+y_max = 0.9
+[shape.hole]
+type = circle
+center = 0.3 0.3
+radius = 0.08
+[shape.disc]
+type = circle
+center = 0.6 0.5
+radius = 0.15
+[shape.half]
+type = rectangle
+x_min = 0
+x_max = 1
+y_min = 0
+y_max = 0.5
+[region.lens]
+geometry = disc
+[region.low]
+geometry = half
+[region.top]
+geometry = domain
+[curve.fault]
+file = fault.xy
+[meshing]
+points = 1500
+"""
 USAGE, FILE = 2, 4
 
 
 class Formats(unittest.TestCase):
-    """A directory with one mesh in all formats for each of two shapes, made once."""
+    """A directory with one mesh in all formats for each of three shapes, made once."""
 
     @classmethod
     def setUpClass(cls):
         cls.space = Workspace()
         cls.work = cls.space.__enter__()
         (cls.work / "own.ini").write_text(OWN)
+        (cls.work / "layers.ini").write_text(LAYERS)
+        (cls.work / "fault.xy").write_text("0.2 0.5\n0.35 0.5\n0.5 0.8\n")
         cls.expected = {}
-        for config in (cls.work / "own.ini", ROOT / "configs" / "spade.ini"):
+        for config in (cls.work / "own.ini", ROOT / "configs" / "spade.ini", cls.work / "layers.ini"):
             done = run(config, f"output.directory={cls.work}", f"output.formats=vtkhdf xdmf {WORDS}",
                        "meshing.points=1500", ranks=2)
             if done.returncode != 0:
@@ -87,8 +124,9 @@ class Formats(unittest.TestCase):
         self.assertEqual(rows(np.vstack([mesh.cells[k].data for k in lines]),
                               np.concatenate([mesh.cell_data[label][k] for k in lines])), expected.edge_rows())
         triangles = [k for k, block in enumerate(mesh.cells) if block.type == "triangle"]
-        np.testing.assert_array_equal(np.vstack([mesh.cells[k].data for k in triangles]), expected.triangles)
-        self.assertEqual({int(number) for k in triangles for number in mesh.cell_data[region][k]}, {1})
+        self.assertEqual(rows(np.vstack([mesh.cells[k].data for k in triangles]),
+                              np.concatenate([mesh.cell_data[region][k] for k in triangles])),
+                         rows(expected.triangles, expected.region))
 
     def test_gmsh_formats_by_meshio(self):
         for ending in ("msh", "msh2"):
@@ -98,7 +136,8 @@ class Formats(unittest.TestCase):
                     self.check_meshio(mesh, expected, "gmsh:physical", "gmsh:physical")
                     found = {name: tuple(value) for name, value in mesh.field_data.items()}
                     wanted = {name: (number, 1) for name, number in expected.parts_with_edges().items()}
-                    self.assertEqual(found, wanted | {name: (number, 2) for name, number in expected.regions.items()})
+                    regions = expected.regions_with_triangles()
+                    self.assertEqual(found, wanted | {name: (number, 2) for name, number in regions.items()})
 
     def test_gmsh_formats_by_gmsh(self):
         gmsh.initialize()
@@ -111,12 +150,15 @@ class Formats(unittest.TestCase):
                     groups = gmsh.model.getPhysicalGroups()
                     names = {(gmsh.model.getPhysicalName(*group), *group) for group in groups}
                     parts = expected.parts_with_edges().items()
+                    regions = expected.regions_with_triangles().items()
                     self.assertEqual(names, {(name, 1, number) for name, number in parts} |
-                                     {(name, 2, number) for name, number in expected.regions.items()})
+                                     {(name, 2, number) for name, number in regions})
                     tags, places, _ = gmsh.model.mesh.getNodes()
                     places = places.reshape(-1, 3)[np.argsort(tags), :2]
                     self.assertLessEqual(np.abs(places - expected.points).max(), 1e-15)
-                    self.assertEqual(self.of_group(2, 1).tolist(), expected.triangles.tolist())
+                    for _, number in regions:
+                        self.assertEqual(self.of_group(2, number).tolist(),
+                                         expected.triangles[expected.region == number].tolist())
                     for label in expected.parts_with_edges().values():
                         wanted = expected.edges[expected.labels == label]
                         self.assertEqual(sorted(self.of_group(1, label).tolist()), sorted(wanted.tolist()))
@@ -149,6 +191,10 @@ class Formats(unittest.TestCase):
                         middles = expected.points[expected.edges].mean(axis=1)
                         wanted = in_order(np.column_stack([middles, expected.labels]))
                         np.testing.assert_allclose(in_order(found["edges"]), wanted, atol=1e-15)
+                        if ending == "msh" or stem == "layers":
+                            middles = expected.points[expected.triangles].mean(axis=1)
+                            wanted = in_order(np.column_stack([middles, expected.region]))
+                            np.testing.assert_allclose(in_order(found["regions"]), wanted, atol=1e-15)
 
     def test_xdmf_facets_by_meshio(self):
         for stem, expected in self.expected.items():
@@ -163,13 +209,13 @@ class Formats(unittest.TestCase):
                 source = ogr.Open(str(path))
                 layer = source.GetLayer(0)
                 self.assertEqual(layer.GetFeatureCount(), len(expected.triangles) + len(expected.edges))
-                corners, ends, labels, regions, names = [], [], [], set(), {}
+                corners, ends, labels, regions, names = [], [], [], [], {}
                 for number, feature in enumerate(layer):
                     shape, kind = feature.GetGeometryRef(), feature["kind"]
                     if kind == "triangle":
                         self.assertEqual(feature["number"], number)
                         corners.append(shape.GetGeometryRef(0).GetPoints(2))
-                        regions.add((feature["name"], feature["region"]))
+                        regions.append((feature["name"], feature["region"]))
                     else:
                         self.assertEqual((kind, feature["number"]), ("edge", number - len(expected.triangles)))
                         ends.append(shape.GetPoints(2))
@@ -180,7 +226,8 @@ class Formats(unittest.TestCase):
                 np.testing.assert_allclose(np.array(ends), expected.points[expected.edges], rtol=1e-15)
                 np.testing.assert_array_equal(labels, expected.labels)
                 self.assertEqual(names, {name: label for name, label in expected.parts.items() if label in labels})
-                self.assertEqual(regions, set(expected.regions.items()))
+                self.assertEqual(set(regions), set(expected.regions_with_triangles().items()))
+                np.testing.assert_array_equal([number for _, number in regions], expected.region)
 
     def test_medit_by_meshio(self):
         for path, expected in self.each("mesh"):
@@ -214,7 +261,7 @@ class Formats(unittest.TestCase):
                 self.assertLessEqual(np.abs(found["vertex"][:, :2] - expected.points).max(), 1e-15)
                 np.testing.assert_array_equal(found["vertex"][:, 2], expected.point_labels())
                 np.testing.assert_array_equal(found["triangle"][:, :3], expected.triangles)
-                self.assertEqual(set(found["triangle"][:, 3]), set(expected.regions.values()))
+                np.testing.assert_array_equal(found["triangle"][:, 3], expected.region)
                 edges = found["edge"].astype(int)
                 self.assertEqual(rows(np.sort(edges[:, :2]), edges[:, 2]),
                                  rows(np.sort(expected.edges), expected.labels))
@@ -233,6 +280,7 @@ class Formats(unittest.TestCase):
                 np.testing.assert_array_equal(table[:, 3], expected.point_labels())
                 table = np.loadtxt(path.with_suffix(".ele"), skiprows=1, dtype=int)
                 np.testing.assert_array_equal(table[:, 1:4], expected.triangles + 1)
+                np.testing.assert_array_equal(table[:, 4], expected.region)
                 lines = path.with_suffix(".ele").read_text().splitlines()
                 self.assertEqual(with_name("region", lines), expected.regions)
                 table = np.loadtxt(path.with_suffix(".edge"), skiprows=1, dtype=int)
@@ -267,8 +315,8 @@ class Formats(unittest.TestCase):
                 on_rim = marked[:, 2] > 0
                 self.assertEqual(rows(sides[on_rim], marked[on_rim, 2]), rows(np.sort(expected.edges), expected.labels))
                 regions = ElementTree.parse(path.with_suffix(".attr0.xml"))
-                self.assertEqual({float(value.get("value")) for value in regions.iter("value")},
-                                 set(expected.regions.values()))
+                self.assertEqual([float(value.get("value")) for value in regions.iter("value")],
+                                 expected.region.tolist())
 
     def test_vtu_by_meshio_and_vtk(self):
         for path, expected in self.each("vtu"):
@@ -301,7 +349,9 @@ class Formats(unittest.TestCase):
                 lines = path.read_text().splitlines()
                 cards = {card: [line.split()[1:] for line in lines if line.startswith(card + " ")]
                          for card in ("E3T", "ND", "NS")}
-                np.testing.assert_array_equal(np.array(cards["E3T"], dtype=int)[:, 1:4], expected.triangles + 1)
+                table = np.array(cards["E3T"], dtype=int)
+                np.testing.assert_array_equal(table[:, 1:4], expected.triangles + 1)
+                np.testing.assert_array_equal(table[:, 4], expected.region)
                 np.testing.assert_array_equal(np.array(cards["ND"], dtype=float)[:, 1:3], expected.points)
                 edges, labels, string = [], [], []
                 for words in cards["NS"]:
@@ -312,9 +362,11 @@ class Formats(unittest.TestCase):
                         edges += list(zip(string, string[1:]))
                         labels += [numbers[last + 1]] * (len(string) - 1)
                         string = []
-                self.assertEqual(rows(np.array(edges) - 1, labels), expected.edge_rows())
-                for name, number in expected.parts.items():
+                self.assertEqual(rows(np.array(edges) - 1, labels), expected.rim_rows())
+                for name, number in expected.rim_parts.items():
                     self.assertIn(f"node string {number}: {name}", lines[1])
+                if path.stem == "layers":
+                    self.assertIn("material 3: low", lines[1])
 
     def test_2dm_by_qgis(self):
         """Points and triangles; QGIS keeps no node strings."""
@@ -351,9 +403,10 @@ class Formats(unittest.TestCase):
                         labels += [expected.parts[name]] * (len(string) - 1)
                         kinds.setdefault(name, set()).add(kind if kind == "open" else int(words[1]))
                     self.assertEqual(total, 0)
-                self.assertEqual(rows(np.array(edges) - 1, labels), expected.edge_rows())
-                self.assertEqual(kinds, {"open_sea": {"open"}, "bay": {20}, "island": {21}} if path.stem == "own"
-                                 else {"spade": {20}, "hole": {21}})
+                self.assertEqual(rows(np.array(edges) - 1, labels), expected.rim_rows())
+                self.assertEqual(kinds, {"own": {"open_sea": {"open"}, "bay": {20}, "island": {21}},
+                                         "spade": {"spade": {20}, "hole": {21}},
+                                         "layers": {"box": {20}, "hole": {21}}}[path.stem])
 
     def open_and_land(self, path):
         """Names of the open and of the land boundaries of a fort.14."""
@@ -433,9 +486,10 @@ class Formats(unittest.TestCase):
 
     def test_convert_makes_the_same_bytes_on_any_ranks(self):
         """The runs had 2 ranks."""
-        for stem, ranks, endings in (("own", 3, ENDINGS), ("spade", 1, ["node", "14", "geojson"])):
+        for stem, ranks, endings in (("own", 3, ENDINGS), ("spade", 1, ["node", "14", "geojson"]),
+                                     ("layers", 3, ["msh", "mesh", "node", "vtu"])):
             target = self.work / f"on_{ranks}"
-            target.mkdir()
+            target.mkdir(exist_ok=True)
             for ending in endings:
                 done = run("convert", self.work / f"{stem}.h5", target / f"{stem}.{ending}", ranks=ranks)
                 self.assertEqual(done.returncode, 0, done.stderr)
@@ -501,6 +555,59 @@ class Formats(unittest.TestCase):
         for words in (r"island +hole +1 ", r"open_sea|bay +outer", "1 open_sea, 2 bay, 3 island",
                       r"all \d+ checks passed", r"mesh hash +[0-9a-f]{16}", "smallest angle"):
             self.assertRegex(done.stdout, words)
+
+    def test_info_of_regions(self):
+        done = run("info", self.work / "layers.h5")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        labels = self.expected["layers"].parts
+        for name in ("fault", "lens|low", "lens|top", "low|top"):
+            self.assertRegex(done.stdout, rf"labels of edges inside in other formats:.* {labels[name]} {name}".replace(
+                "|", "[|]"))
+        for name, number in self.expected["layers"].regions.items():
+            self.assertRegex(done.stdout, rf"\n{name} +{number}\b")
+
+    def test_regions_by_python(self):
+        """Names of regions, curves and interfaces in the Python package."""
+        sys.path.insert(0, str(ROOT / "scripts" / "python"))
+        import trime_mpi  # pylint: disable=import-outside-toplevel
+        expected = self.expected["layers"]
+        for in_place in (False, True):
+            mesh = trime_mpi.read(self.work / "layers.h5", in_place=in_place)
+            self.assertEqual(set(mesh.interfaces), {"lens|low", "lens|top", "low|top"})
+            self.assertEqual(set(mesh.curves), {"fault"})
+            low = mesh.in_region("low")
+            np.testing.assert_array_equal(low, expected.region == expected.regions["low"])
+            np.testing.assert_array_equal(mesh.in_region(["low", "top", "nothing"]), mesh.region != 2)
+            edge = mesh.interfaces["low|top"]
+            self.assertEqual((edge.left, edge.right), ("low", "top"))
+            self.assertEqual(edge.label, expected.parts["low|top"])
+            sides = {tuple(side) for side in mesh.triangles[low][:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2).tolist()}
+            self.assertLessEqual({tuple(ends) for ends in edge.edges.tolist()}, sides, "low is on the left")
+            self.assertLess(abs(mesh.points[edge.vertices][:, 1] - 0.5).max(), 1e-12)
+            np.testing.assert_array_equal(mesh.interface_edges[edge.rows], edge.edges)
+            self.assertTrue((mesh.interface_curves[edge.rows] >= 0).any())
+            self.assertRaises(KeyError, mesh.in_region, "lava")
+            self.assertEqual(trime_mpi.read(self.work / "own.h5").interfaces, {})
+
+    def test_refined_regions(self):
+        """Twice as many interfaces on the same lines, on any ranks, and the same names."""
+        made = []
+        for ranks in (1, 3):
+            fine = self.work / f"fine{ranks}.h5"
+            done = run("refine", self.work / "layers.h5", fine, ranks=ranks)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            with h5py.File(fine) as file, h5py.File(self.work / "layers.h5") as coarse:
+                arrays = {name: values[:] for group in ("curves", "interfaces", "lines")
+                          for name, values in file["Mesh"][group].items()}
+                made.append({name: values.tolist() for name, values in arrays.items()})
+                for group in ("curves", "interfaces", "lines"):
+                    self.assertEqual(len(file["Mesh"][group]["labels"]), 2 * len(coarse["Mesh"][group]["labels"]))
+                for name in ("pair_name", "left", "right", "label"):
+                    np.testing.assert_array_equal(file["trime_mpi/interfaces"][name],
+                                                  coarse["trime_mpi/interfaces"][name])
+                np.testing.assert_array_equal(np.bincount(file["VTKHDF/CellData/region"]),
+                                              4 * np.bincount(coarse["VTKHDF/CellData/region"]))
+        self.assertEqual(*made)
 
     def test_info_of_damaged_tables(self):
         """Columns of unlike length, and one that claims far more rows than the file holds."""

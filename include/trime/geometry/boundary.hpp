@@ -113,6 +113,14 @@ struct RegionOverlap {
   Vec2 place; ///< on the boundary of the overlap
 };
 
+/// Faces of the division that were smaller or narrower than the triangles, and belong to their neighbours now.
+struct AbsorbedFaces {
+  std::int64_t count = 0;
+  double area = 0;
+  double largest = 0; ///< area of the largest face
+  Vec2 place;         ///< on the boundary of the largest face
+};
+
 /// @brief The regions into which a shape is divided, such as materials. Region 0 is the rest, which no other region
 /// covers; it may be empty. In a mesh the regions have the numbers 1, 2, ... in the same order.
 struct Regions {
@@ -120,7 +128,8 @@ struct Regions {
   std::vector<std::array<int, 2>> pairs{}; ///< regions that share an interface, the lower one first, in ascending order
   std::vector<double> areas{};             ///< area of each region in the shape as it was given
   std::vector<double> outside{};           ///< area of each region as it was given that lies outside of the shape
-  std::vector<RegionOverlap> overlaps{};   ///< those that are more than rounding errors, in the order of the regions
+  AbsorbedFaces absorbed{};
+  std::vector<RegionOverlap> overlaps{}; ///< those that are more than rounding errors, in the order of the regions
   /// Returns whether the shape is divided.
   bool any() const { return names.size() > 1; }
   /// Returns the index in `pairs` of two regions in any order; -1 if they share no interface. Cost: O(log pairs).

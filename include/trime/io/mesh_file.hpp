@@ -40,7 +40,7 @@ private:
 };
 
 /// The endings of the mesh file NAME.h5, of its two views for ParaView and other readers, and of the view of its
-/// boundary.
+/// labelled edges.
 inline constexpr std::array<const char*, 4> mesh_file_endings{".h5", ".xdmf", ".vtkhdf", ".xmf"};
 
 /// The names, the directory and the kinds of the files to write.

@@ -30,6 +30,8 @@ public:
   /// @throws ConfigError with the position of a syntax error, or, for an unknown name, with the known names and the
   /// most similar one
   static Region parse(std::string_view text, std::span<const std::string> part_names);
+  /// Returns the expression that consists of one part alone.
+  static Region of_part(int part, std::string_view text);
 
   const std::string& text() const { return text_; }
   /// Returns the indices of the parts that occur in the expression, ascending, each once.
@@ -87,14 +89,18 @@ private:
 struct NamedRegion {
   std::string name;
   std::string geometry; ///< an expression over the same parts as the geometry of the shape, see Region::parse
+  int part = -1; ///< index into Division::parts of the part that is the region, instead of an expression; -1: none
 };
 
 /// @brief How a shape is divided into regions. A place belongs to the first region that contains it; a place in none
 /// of them belongs to the rest.
 struct Division {
   std::vector<NamedRegion> regions{};
-  std::string rest{};     ///< name of the rest; empty: the text of the geometry
-  bool cover_all = false; ///< whether a rest with an area is an error
+  std::vector<Part> parts{};  ///< regions that are no expressions, such as polygons of a map
+  std::string rest{};         ///< name of the rest; empty: the text of the geometry
+  bool cover_all = false;     ///< whether a rest with an area is an error
+  double least_perimeter = 0; ///< faces with a shorter perimeter become part of the region next to them
+  double least_width = 0;     ///< so do faces that are narrower; see absorb_small_faces
 };
 
 /// What lies inside a shape: curves that edges of the mesh follow, and regions.

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shape/small_faces.hpp"
+
+#include "core/angle.hpp"
+#include "shape/boundary_area.hpp"
+#include "shape/inner_curves.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+#include <utility>
+
+namespace trime::shape {
+namespace {
+
+using geometry::AbsorbedFaces;
+using geometry::Piece;
+using geometry::Vec2;
+
+// Each round gives away at least the smallest face, and usually nearly all.
+constexpr int most_rounds = 100;
+
+/// One side of a piece: 2 k is the left side of piece k, along it; 2 k + 1 the right side, against it.
+using Side = std::size_t;
+
+/// The faces of the division as walks along their borders; a face with holes has several.
+class Faces {
+public:
+  explicit Faces(const std::vector<LabelledPiece>& pieces) : pieces_(pieces) {
+    link();
+    walk();
+  }
+
+  struct Walk {
+    Side first;
+    double area = 0, perimeter = 0; ///< the area is negative around a hole
+  };
+  const std::vector<Walk>& walks() const { return walks_; }
+
+  template <class Visit>
+  void for_each_side(const Walk& walk, const Visit& visit) const {
+    Side side = walk.first;
+    do {
+      visit(side);
+      side = next_[side];
+    } while (side != walk.first);
+  }
+  int label(Side side) const {
+    const LabelledPiece& piece = pieces_[side / 2];
+    return side % 2 == 0 ? piece.left : piece.right;
+  }
+
+private:
+  LocalIndex start(Side side) const { return side % 2 == 0 ? pieces_[side / 2].from : pieces_[side / 2].to; }
+  Piece along(Side side) const { return side % 2 == 0 ? pieces_[side / 2].piece : reversed(pieces_[side / 2].piece); }
+
+  /// Whoever arrives at a vertex leaves along the next piece clockwise.
+  void link() {
+    struct Arm {
+      LocalIndex vertex;
+      double angle, curvature;
+      Side out;
+    };
+    std::vector<Arm> arms;
+    for (Side side = 0; side < 2 * pieces_.size(); ++side) {
+      const Piece piece = along(side);
+      const Vec2 direction = piece.tangent(0);
+      arms.push_back({start(side), angle_of(direction.y, direction.x),
+                      piece.circular ? (piece.sweep > 0 ? 1 : -1) / piece.radius : 0, side});
+    }
+    std::sort(arms.begin(), arms.end(), [](const Arm& a, const Arm& b) {
+      return std::tie(a.vertex, a.angle, a.curvature, a.out) < std::tie(b.vertex, b.angle, b.curvature, b.out);
+    });
+    next_.resize(arms.size());
+    for (std::size_t begin = 0, end = 0; begin < arms.size(); begin = end) {
+      while (end < arms.size() && arms[end].vertex == arms[begin].vertex)
+        ++end;
+      for (std::size_t k = begin; k < end; ++k)
+        next_[arms[k].out ^ 1] = arms[k > begin ? k - 1 : end - 1].out;
+    }
+  }
+
+  void walk() {
+    std::vector<char> is_seen(next_.size(), 0);
+    for (Side first = 0; first < next_.size(); ++first) {
+      if (is_seen[first] != 0)
+        continue;
+      Walk found{first};
+      const Vec2 origin = along(first).start;
+      for_each_side(found, [&](Side side) {
+        is_seen[side] = 1;
+        const Piece piece = along(side);
+        found.area += 0.5 * twice_area_under({piece}, origin);
+        found.perimeter += piece.length();
+      });
+      walks_.push_back(found);
+    }
+  }
+
+  const std::vector<LabelledPiece>& pieces_;
+  std::vector<Side> next_; // by side: the side that follows it around the face
+  std::vector<Walk> walks_;
+};
+
+/// The label across the longest part of the border; -1 if there is only the outside. Of equally long ones the lowest.
+int widest_neighbour(const Faces& faces, const Faces::Walk& walk, const std::vector<LabelledPiece>& pieces) {
+  std::map<int, double> lengths;
+  faces.for_each_side(walk, [&](Side side) { lengths[faces.label(side ^ 1)] += pieces[side / 2].piece.length(); });
+  int best = -1;
+  double longest = 0;
+  for (const auto& [label, length] : lengths)
+    if (label >= 0 && length > longest) {
+      longest = length;
+      best = label;
+    }
+  return best;
+}
+
+/// Gives away the smallest faces, as long as none is next to another one of this round.
+bool absorb_once(std::vector<LabelledPiece>& pieces, double least_perimeter, double least_width,
+                 AbsorbedFaces& absorbed) {
+  const Faces faces(pieces);
+  std::vector<Faces::Walk> small;
+  for (const Faces::Walk& walk : faces.walks())
+    if (faces.label(walk.first) >= 0 && walk.area > 0 &&
+        (walk.perimeter < least_perimeter || 2 * walk.area < least_width * walk.perimeter))
+      small.push_back(walk);
+  std::sort(small.begin(), small.end(), [](const Faces::Walk& a, const Faces::Walk& b) {
+    return std::tie(a.area, a.first) < std::tie(b.area, b.first);
+  });
+  std::vector<char> is_changed(pieces.size(), 0);
+  std::vector<std::pair<Side, int>> labels; // to be set
+  for (const Faces::Walk& walk : small) {
+    bool is_free = true;
+    faces.for_each_side(walk, [&](Side side) { is_free = is_free && is_changed[side / 2] == 0; });
+    const int label = is_free ? widest_neighbour(faces, walk, pieces) : -1;
+    if (label < 0)
+      continue;
+    faces.for_each_side(walk, [&](Side side) {
+      is_changed[side / 2] = 1;
+      labels.emplace_back(side, label);
+    });
+    ++absorbed.count;
+    absorbed.area += walk.area;
+    if (walk.area > absorbed.largest) {
+      absorbed.largest = walk.area;
+      absorbed.place = pieces[walk.first / 2].piece.start;
+    }
+  }
+  for (const auto& [side, label] : labels)
+    (side % 2 == 0 ? pieces[side / 2].left : pieces[side / 2].right) = label;
+  std::erase_if(pieces, [](const LabelledPiece& piece) { return piece.left == piece.right; });
+  return !labels.empty();
+}
+
+} // namespace
+
+AbsorbedFaces absorb_small_faces(std::vector<LabelledPiece>& pieces, double least_perimeter, double least_width) {
+  AbsorbedFaces absorbed;
+  for (int round = 0; round < most_rounds; ++round)
+    if (!absorb_once(pieces, least_perimeter, least_width, absorbed))
+      break;
+  return absorbed;
+}
+
+} // namespace trime::shape

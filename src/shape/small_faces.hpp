@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Gives the faces of a division that are smaller or narrower than the triangles to their neighbours: gaps and overlaps
+// between polygons that were digitised one by one, and crumbs.
+#pragma once
+
+#include "trime/core/types.hpp"
+#include "trime/geometry/boundary.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace trime::shape {
+
+/// A piece between two different regions, or between a region and the outside.
+struct LabelledPiece {
+  LocalIndex from, to;     ///< vertices of the arrangement
+  geometry::Piece piece;   ///< from `from` to `to`
+  int left = 0, right = 0; ///< regions on both sides; -1 outside of the shape
+  LocalIndex number = 0;   ///< for the caller
+};
+
+/// @brief Gives each face with a short perimeter or a small width to the region with which it shares the longest
+/// border, the smallest faces first. Pieces between equal regions are removed. A face of the shape that touches only
+/// the outside stays. Cost: O(n log n) for each of a few rounds.
+/// @param least_perimeter faces with a shorter one are crumbs @param least_width faces are slivers if twice their area
+/// divided by their perimeter is less
+geometry::AbsorbedFaces absorb_small_faces(std::vector<LabelledPiece>& pieces, double least_perimeter,
+                                           double least_width);
+
+} // namespace trime::shape

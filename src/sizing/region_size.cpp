@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sizing/region_size.hpp"
+
+#include "core/angle.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trime::sizing {
+namespace {
+
+using geometry::Piece;
+using geometry::Segment;
+using geometry::Vec2;
+
+constexpr double longest_turn = pi / 180;
+
+void add_piece(const Piece& piece, const geometry::Lattice& lattice, std::vector<Segment>& outline) {
+  const double length = piece.length();
+  const int parts = piece.circular ? static_cast<int>(std::ceil(std::fabs(piece.sweep) / longest_turn)) : 1;
+  Vec2 at = piece.start;
+  for (int k = 1; k <= parts; ++k) {
+    const Vec2 next = k == parts ? piece.end : lattice.snap(piece.point(length * k / parts));
+    if (next != at)
+      outline.push_back({at, next});
+    at = next;
+  }
+}
+
+std::vector<Segment> outline_of(int region, const geometry::Domain& domain) {
+  const geometry::Lattice& lattice = domain.frame().lattice();
+  std::vector<Segment> outline;
+  for (const geometry::Loop& loop : domain.boundary().loops)
+    for (const Piece& piece : loop.pieces)
+      if (piece.region == region)
+        add_piece(piece, lattice, outline);
+  for (const geometry::InnerArc& arc : domain.curves().arcs)
+    if (arc.left != arc.right && (arc.left == region || arc.right == region))
+      for (const Piece& piece : arc.pieces)
+        add_piece(piece, lattice, outline);
+  return outline;
+}
+
+} // namespace
+
+RegionSize::RegionSize(const SizeField& field, const geometry::Domain& domain, std::vector<RegionBound> bounds)
+    : field_(field), lattice_(domain.frame().lattice()) {
+  for (const RegionBound& bound : bounds) {
+    std::vector<Segment> outline = outline_of(bound.region, domain);
+    if (outline.empty())
+      continue;
+    geometry::Box box;
+    for (const Segment& segment : outline)
+      box.include(segment.a);
+    bounded_.push_back({box, geometry::SegmentGrid(std::move(outline)), bound.size});
+  }
+}
+
+double RegionSize::size(Vec2 p) const {
+  double size = field_.size(p);
+  if (!is_valid_size(size))
+    return size;
+  for (const Bounded& one : bounded_)
+    if (one.size < size && p.x >= one.box.min.x && p.x <= one.box.max.x && p.y >= one.box.min.y &&
+        p.y <= one.box.max.y && one.outline.inside(lattice_.snap(p)))
+      size = one.size;
+  return size;
+}
+
+std::size_t RegionSize::memory_bytes() const {
+  std::size_t bytes = field_.memory_bytes();
+  for (const Bounded& one : bounded_)
+    bytes += one.outline.memory_bytes();
+  return bytes;
+}
+
+} // namespace trime::sizing
