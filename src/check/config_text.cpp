@@ -88,6 +88,12 @@ std::string ConfigText::path(const std::string& section, const std::string& key)
   return name.empty() || name[0] == '/' || folder_.empty() ? name : folder_ + "/" + name;
 }
 
+bool has_region_sizes(const ConfigText& config) {
+  return std::ranges::any_of(config.regions(), [&config](const std::string& name) {
+    return config.number("region." + name, "size").has_value();
+  });
+}
+
 std::optional<std::string> read_text(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;

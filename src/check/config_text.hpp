@@ -40,6 +40,9 @@ private:
   std::string folder_;
 };
 
+/// Returns whether a region has a size of its own.
+bool has_region_sizes(const ConfigText& config);
+
 /// Returns the text of a file, or nothing if it cannot be read.
 std::optional<std::string> read_text(const std::string& path);
 

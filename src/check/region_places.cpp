@@ -28,12 +28,18 @@ constexpr std::size_t most_places = 1'000'000;
 class RegionList {
 public:
   /// @throws Failure (exit 2) if an expression names a part that does not exist
-  RegionList(const ConfigText& config, const Shape& shape) : shape_(shape) {
+  /// @param stored names in the mesh file, which has a region for each value of an attribute
+  RegionList(const ConfigText& config, const Shape& shape, const std::vector<std::string>& stored) : shape_(shape) {
     names.push_back(config.value("shape", "rest"));
     if (names[0].empty() || names[0] == "geometry")
       names[0] = config.value("shape", "geometry");
     for (const std::string& name : config.regions()) {
-      const std::string geometry = config.value("region." + name, "geometry");
+      const std::string section = "region." + name, geometry = config.value(section, "geometry");
+      if (!config.value(section, "file").empty()) {
+        reason = fmt::format("the polygons of region {} come from a file", name);
+        add_stored(name, !config.value(section, "attribute").empty(), stored);
+        continue;
+      }
       names.push_back(name);
       regions_.emplace_back(geometry.empty() || geometry == "NAME" ? name : geometry, shape.numbers);
     }
@@ -86,6 +92,14 @@ public:
   std::string reason;             ///< why regions cannot be compared; empty: they can
 
 private:
+  /// Adds the name of a region of a file, or the names NAME.VALUE that follow in the mesh file.
+  void add_stored(const std::string& name, bool has_values, const std::vector<std::string>& stored) {
+    if (!has_values)
+      names.push_back(name);
+    while (has_values && names.size() < stored.size() && stored[names.size()].starts_with(name + "."))
+      names.push_back(stored[names.size()]);
+  }
+
   std::vector<std::size_t> parts_around(Point p) const {
     std::vector<std::size_t> around;
     for (const Point image : shape_.images(p))
@@ -121,11 +135,13 @@ class RegionPlaces {
 public:
   RegionPlaces(const GivenRegions& given, Report& report)
       : file_(given.file), mesh_(given.mesh), config_(given.config), shape_(given.shape), report_(report),
-        list_(given.config, given.shape), refined_(std::exp2(file_.number("/trime_mpi", "refinements").value_or(0))) {
+        list_(given.config, given.shape, given.file.names("/trime_mpi/tags/region_name")),
+        refined_(std::exp2(file_.number("/trime_mpi", "refinements").value_or(0))) {
     const std::optional<double> within = config_.number("meshing", "simplify_within");
     strict_ = config_.is_true("meshing", "keep_features") || (within && *within == 0);
     simplified_ = strict_ ? 0 : given.simplified;
-    if (config_.value("sizing", "type") == "uniform" && config_.value("sizing", "size_at").empty())
+    if (config_.value("sizing", "type") == "uniform" && config_.value("sizing", "size_at").empty() &&
+        !has_region_sizes(config_))
       uniform_ = std::ranges::max(mesh_.size);
   }
 
@@ -135,6 +151,7 @@ public:
     if (!list_.reason.empty()) {
       report_.skip("region_places", list_.reason);
       report_.skip("interface_places", list_.reason);
+      report_.skip("region_corners", list_.reason);
       return;
     }
     check_triangles();
