@@ -40,7 +40,7 @@ private:
   std::string folder_;
 };
 
-/// Returns whether a region has a size of its own.
+/// Returns whether a region has the key `size`.
 bool has_region_sizes(const ConfigText& config);
 
 /// Returns the text of a file, or nothing if it cannot be read.

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests that trime_check finds damage in the regions of a mesh, and regions that are not those of the config."""
+import json
 import pathlib
 import re
 import shutil
@@ -201,6 +202,26 @@ class CheckRegions(unittest.TestCase):
     def test_a_list_made_here_is_sound(self):
         code, text = check_damaged(self.whole, self.work / "listed.h5", list_interfaces)
         self.assertEqual(code, 0, text)
+
+    def test_sizes_and_polygons_of_a_map(self):
+        """A region with small triangles, and regions by an attribute, whose places are not compared."""
+        def square(x, unit):
+            ring = [[x, 0.2], [x + 0.3, 0.2], [x + 0.3, 0.8], [x, 0.8], [x, 0.2]]
+            return {"type": "Feature", "properties": {"unit": unit}, "geometry": {"type": "Polygon",
+                                                                                  "coordinates": [ring]}}
+        (self.work / "units.geojson").write_text(json.dumps(
+            {"type": "FeatureCollection", "features": [square(0.1, "chalk"), square(0.4, "marl")]}), "ascii")
+        for name, keys in (("fine", "geometry = part\nsize = 0.4"), ("map", "file = units.geojson\nattribute = unit")):
+            config = self.work / f"{name}.ini"
+            config.write_text("[shape]\ngeometry = domain\n[shape.part]\ntype = rectangle\nx_min = 0\ny_min = 0\n"
+                              f"x_max = 0.3\ny_max = 1\n[region.{name}]\n{keys}\n[meshing]\npoints = 1500\n", "ascii")
+            done = run(config, f"output.directory={self.work}")
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            code, text = check(self.work / f"{name}.h5")
+            self.assertEqual(code, 0, text)
+            self.assertRegex(text, r"(?m)^ok +region_list +expected domain, " +
+                             ("map.chalk, map.marl" if name == "map" else "fine"))
+            self.assertRegex(text, rf"(?m)^{'--' if name == 'map' else 'ok'} +region_places")
 
     def test_finds_every_damage(self):
         damages = dict(DAMAGES)
