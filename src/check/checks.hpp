@@ -12,6 +12,9 @@
 
 namespace trime_check {
 
+/// Cosine of the largest angle opposite to a chord, 90 degrees, with room for rounding.
+constexpr double least_cosine = -1e-11;
+
 /// One of the closed curves of the boundary of the mesh.
 struct Loop {
   std::vector<std::size_t> facets; ///< numbers of its facets, in the order along the loop
@@ -34,8 +37,13 @@ bool check_arrays(const StoredFile& file, const Mesh& mesh, Report& report);
 Counted check_surface(const StoredFile& file, const Mesh& mesh, Report& report);
 
 /// Checks the edges on curves inside the shape, if the file has any: each is an edge of two triangles, and no vertex
-/// lies in its diametral disc.
+/// lies in its diametral disc. Checks the list of all edges with labels.
 void check_curves(const StoredFile& file, const Mesh& mesh, Report& report);
+
+/// @brief Checks the regions of triangles and the interfaces between them, if the file has more than one region. The
+/// edges between regions are listed once each, with the lower region on the left. The area inside the border of each
+/// region is exactly that of its triangles. @pre the ids of the triangles are in range
+void check_regions(const StoredFile& file, const Mesh& mesh, Report& report);
 
 /// Checks the sizes of points and facets.
 void check_sizes(const StoredFile& file, const Mesh& mesh, Report& report);

@@ -53,6 +53,8 @@ ConfigText::ConfigText(const std::string& text, std::string folder) : folder_(st
       section = trimmed(line.substr(1, line.size() - 2));
       if (section.starts_with("shape."))
         parts_.push_back(section.substr(6));
+      else if (section.starts_with("region."))
+        regions_.push_back(section.substr(7));
     } else if (const std::size_t sign = line.find('='); sign != std::string::npos)
       values_[{section, trimmed(line.substr(0, sign))}] = trimmed(line.substr(sign + 1));
   }
@@ -84,6 +86,12 @@ Point ConfigText::point(const std::string& section, const std::string& key) cons
 std::string ConfigText::path(const std::string& section, const std::string& key) const {
   const std::string name = value(section, key);
   return name.empty() || name[0] == '/' || folder_.empty() ? name : folder_ + "/" + name;
+}
+
+bool has_region_sizes(const ConfigText& config) {
+  return std::ranges::any_of(config.regions(), [&config](const std::string& name) {
+    return config.number("region." + name, "size").has_value();
+  });
 }
 
 std::optional<std::string> read_text(const std::string& path) {
@@ -197,7 +205,6 @@ private:
 } // namespace
 
 Region::Region(const std::string& text, const PartNumbers& parts) : nodes_(RegionReader(text, parts).read()) {
-  leaves_.resize(parts.size());
   for (std::size_t k = 0; k < nodes_.size(); ++k)
     if (nodes_[k].kind == Kind::part)
       leaves_[nodes_[k].part].push_back(k);
@@ -215,7 +222,10 @@ bool Region::holds(const Node& node) {
 }
 
 void Region::set(std::size_t part, bool inside) {
-  for (const std::size_t leaf : leaves_[part]) {
+  const auto leaves = leaves_.find(part);
+  if (leaves == leaves_.end())
+    return;
+  for (const std::size_t leaf : leaves->second) {
     if (holds(nodes_[leaf]) == inside)
       continue;
     nodes_[leaf].set = inside ? 1 : 0;

@@ -22,6 +22,8 @@ public:
 
   /// The names of the parts in the order of their sections [shape.NAME].
   const std::vector<std::string>& parts() const { return parts_; }
+  /// The names of the regions in the order of their sections [region.NAME].
+  const std::vector<std::string>& regions() const { return regions_; }
   /// Returns the value of a key; empty if the key is missing or its value is `auto` or `none`.
   std::string value(const std::string& section, const std::string& key) const;
   /// Returns whether the key has a value other than `none`; it may be `auto`.
@@ -34,9 +36,12 @@ public:
 
 private:
   std::map<std::pair<std::string, std::string>, std::string> values_;
-  std::vector<std::string> parts_;
+  std::vector<std::string> parts_, regions_;
   std::string folder_;
 };
+
+/// Returns whether a region has the key `size`.
+bool has_region_sizes(const ConfigText& config);
 
 /// Returns the text of a file, or nothing if it cannot be read.
 std::optional<std::string> read_text(const std::string& path);
@@ -69,7 +74,7 @@ public:
 
   /// Sets whether the place lies in this part. At the beginning it lies in no part.
   void set(std::size_t part, bool inside);
-  bool uses(std::size_t part) const { return !leaves_[part].empty(); }
+  bool uses(std::size_t part) const { return leaves_.contains(part); }
   bool contains() const { return holds(nodes_.back()); }
   /// The nodes of the formula: children come before their parents, and the last node is the root.
   const std::vector<Node>& nodes() const { return nodes_; }
@@ -78,7 +83,7 @@ private:
   static bool holds(const Node& node);
 
   std::vector<Node> nodes_;
-  std::vector<std::vector<std::size_t>> leaves_; // by part: its leaves
+  std::unordered_map<std::size_t, std::vector<std::size_t>> leaves_; // by part: its leaves
 };
 
 } // namespace trime_check

@@ -7,17 +7,13 @@
 namespace trime_check {
 namespace {
 
-/// Cosine of the largest angle opposite to a chord, 90 degrees, with room for rounding.
-constexpr double least_cosine = -1e-11;
-
 /// All that looks at the edges on curves.
 class CurveChecks {
 public:
   CurveChecks(const StoredFile& file, const Mesh& mesh, Report& report) : file_(file), mesh_(mesh), report_(report) {}
 
   void run() {
-    if (!check_ranges())
-      return;
+    check_numbers();
     for (const Facet& edge : mesh_.curve_edges)
       triangles_.try_emplace(ascending(edge), 0);
     Tally twice, wide;
@@ -29,7 +25,7 @@ public:
         if (const auto found = triangles_.find(ascending({t[(k + 1) % 3], t[(k + 2) % 3]}));
             found != triangles_.end()) {
           ++found->second;
-          if (cosine_at(t, k) < least_cosine)
+          if (mesh_.cosine(t, k) < least_cosine)
             wide.note([&] { return place_of(mesh_, found->first); });
         }
     Tally no_edges;
@@ -42,32 +38,17 @@ public:
   }
 
 private:
-  static Facet ascending(const Facet& edge) { return {std::min(edge[0], edge[1]), std::max(edge[0], edge[1])}; }
-
-  /// Returns false if the numbers are so wrong that nothing more can be checked.
-  bool check_ranges() {
-    const auto points = static_cast<std::int64_t>(mesh_.points.size());
+  void check_numbers() {
     const auto curves = static_cast<std::int64_t>(file_.names("/trime_mpi/curves/curve_name").size());
     const auto parts = static_cast<std::int64_t>(file_.names("/trime_mpi/tags/part_name").size());
-    Tally ids, numbers;
+    Tally numbers;
     for (std::size_t k = 0; k < mesh_.curve_edges.size(); ++k) {
-      for (const std::int64_t id : mesh_.curve_edges[k])
-        if (id < 0 || id >= points)
-          ids.note([&] { return fmt::format("edge {}", k); });
       const std::int64_t number = mesh_.curve_numbers[k];
       if (number < 0 || number >= curves || mesh_.curve_labels[k] != parts + number + 1)
         numbers.note([&] { return fmt::format("edge {}", k); });
     }
-    report_.none("curve_ids", ids, "edges on curves with a point that does not exist");
     report_.none("curve_labels", numbers,
                  "edges on curves whose curve has no name, or whose label is not that of the curve after all parts");
-    return ids.count == 0;
-  }
-
-  double cosine_at(const Triangle& t, std::size_t k) const {
-    const auto corners = mesh_.corners(t);
-    const Point u = corners[(k + 1) % 3] - corners[k], v = corners[(k + 2) % 3] - corners[k];
-    return (u.x * v.x + u.y * v.y) / (std::hypot(u.x, u.y) * std::hypot(v.x, v.y));
   }
 
   const StoredFile& file_;
@@ -76,11 +57,32 @@ private:
   std::map<Facet, int> triangles_, listed_;
 };
 
+/// The list of all labelled edges against the lists of facets, edges on curves and interfaces. Older files have none.
+void check_lines(const Mesh& mesh, Report& report) {
+  std::vector<Facet> edges = mesh.facets;
+  std::vector<std::int64_t> labels = mesh.facet_labels;
+  edges.insert(edges.end(), mesh.curve_edges.begin(), mesh.curve_edges.end());
+  labels.insert(labels.end(), mesh.curve_labels.begin(), mesh.curve_labels.end());
+  for (std::size_t k = 0; k < mesh.interfaces.size(); ++k)
+    if (mesh.interface_curves[k] == -1) {
+      edges.push_back(mesh.interfaces[k]);
+      labels.push_back(mesh.interface_labels[k]);
+    }
+  Tally wrong;
+  for (std::size_t k = 0; k < std::max(edges.size(), mesh.lines.size()); ++k)
+    if (k >= std::min(edges.size(), mesh.lines.size()) || edges[k] != mesh.lines[k] || labels[k] != mesh.line_labels[k])
+      wrong.note([&] { return fmt::format("row {}", k); });
+  report.none("lines", wrong,
+              "rows of /Mesh/lines that are not the facets, then the edges on curves, then the other interface edges");
+}
+
 } // namespace
 
 void check_curves(const StoredFile& file, const Mesh& mesh, Report& report) {
   if (!mesh.curve_edges.empty())
     CurveChecks(file, mesh, report).run();
+  if (file.has("/Mesh/lines"))
+    check_lines(mesh, report);
 }
 
 } // namespace trime_check

@@ -16,7 +16,7 @@ constexpr const char* help =
     R"(trime_check FILE.h5 [CONFIG]
 
 Recomputes from a mesh file of trime_mpi all that it promises: triangles, Delaunay edges, boundary loops, area, tags,
-quality, hash, tables, the stored checks, and the mesh against the shape. One line a check: expected, found, first wrong place.
+regions, quality, hash, tables, the stored checks, and the mesh against the shape. One line a check: expected, found, first wrong place.
 
   FILE.h5   a mesh that trime_mpi has written
   CONFIG    the shape is that of this config; without it, of the one that is stored in the file
@@ -42,6 +42,7 @@ int run(const std::vector<std::string>& arguments) {
   if (trime_check::read_mesh(file, mesh, report) && trime_check::check_arrays(file, mesh, report)) {
     const trime_check::Counted counted = trime_check::check_surface(file, mesh, report);
     trime_check::check_curves(file, mesh, report);
+    trime_check::check_regions(file, mesh, report);
     trime_check::check_summary(file, mesh, counted, report);
     trime_check::check_tables(file, mesh, counted, report);
     trime_check::check_shape(file, mesh, arguments.size() > 1 ? arguments[1] : "", report);

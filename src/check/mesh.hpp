@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -47,6 +48,12 @@ struct Mesh {
   std::vector<double> asked_sizes;
   std::vector<Facet> curve_edges; ///< edges on curves inside the shape; empty if the file has none
   std::vector<std::int64_t> curve_numbers, curve_labels;
+  std::vector<Facet> interfaces;        ///< edges between regions; empty if the file has none
+  std::vector<Facet> interface_regions; ///< regions on the left and on the right of each
+  std::vector<std::int64_t> interface_pairs, interface_labels;
+  std::vector<std::int64_t> interface_curves; ///< curve on which the edge lies; -1 for none
+  std::vector<Facet> lines;                   ///< all edges with labels; empty if the file does not list them
+  std::vector<std::int64_t> line_labels;
 
   std::vector<double> alpha, beta, size;
   std::vector<std::int64_t> region, boundary, fixed;
@@ -66,7 +73,17 @@ struct Mesh {
     const Point a = at(t[0]);
     return {a, periods.near(at(t[1]), a), periods.near(at(t[2]), a)};
   }
+  /// Returns the cosine of the angle of a triangle at its corner k.
+  double cosine(const Triangle& t, std::size_t k) const {
+    const std::array<Point, 3> c = corners(t);
+    const Point u = c[(k + 1) % 3] - c[k], v = c[(k + 2) % 3] - c[k];
+    return (u.x * v.x + u.y * v.y) / (std::hypot(u.x, u.y) * std::hypot(v.x, v.y));
+  }
 };
+
+inline Facet ascending(const Facet& edge) {
+  return {std::min(edge[0], edge[1]), std::max(edge[0], edge[1])};
+}
 
 /// Formats a place for messages.
 inline std::string place_of(Point p) {

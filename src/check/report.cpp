@@ -32,6 +32,10 @@ void Report::skip(const std::string& name, const std::string& reason) {
   lines_.push_back(fmt::format("{:<6} {:<20} not checked: {}", "--", name, reason));
 }
 
+void Report::info(const std::string& name, const std::string& text) {
+  lines_.push_back(fmt::format("{:<6} {:<20} {}", "info", name, text));
+}
+
 std::string Report::text() const {
   std::string text;
   for (const std::string& line : lines_)

@@ -55,6 +55,9 @@ public:
   /// Notes a check that could not be made, and the reason. This is not a failure.
   void skip(const std::string& name, const std::string& reason);
 
+  /// Adds a line with numbers that are not checked.
+  void info(const std::string& name, const std::string& text);
+
   std::string text() const;
   bool all_passed() const { return failed_.empty(); }
 

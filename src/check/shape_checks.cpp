@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "checks.hpp"
 #include "cover.hpp"
-#include "shape.hpp"
+#include "region_places.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -76,6 +76,7 @@ public:
     check_corners();
     check_vertices();
     check_region();
+    check_region_places({file_, mesh_, config_, shape_, simplified_within()}, report_);
   }
 
 private:
@@ -122,17 +123,19 @@ private:
         missing.note([&] { return place_of(p); });
     const PlaceSet given(shape_.fixed_points, shape_);
     std::vector<char> has_curve(mesh_.points.size(), 0);
-    for (const Facet& edge : mesh_.curve_edges)
-      for (const std::int64_t end : edge)
-        has_curve[static_cast<std::size_t>(end)] = 1;
+    for (const std::vector<Facet>* edges : {&mesh_.curve_edges, &mesh_.interfaces})
+      for (const Facet& edge : *edges)
+        for (const std::int64_t end : edge)
+          has_curve[static_cast<std::size_t>(end)] = 1;
     for (std::size_t i = 0; i < mesh_.points.size(); ++i)
       if (mesh_.fixed[i] == 1 && mesh_.boundary[i] == 0 && has_curve[i] == 0 && !given.has(mesh_.points[i]))
         foreign.note([&] { return fmt::format("point {} at {}", i, place_of(mesh_.points[i])); });
     report_.none("fixed_points", missing,
                  fmt::format("fixed points (among {} in the config) that are not vertices of the mesh",
                              shape_.fixed_points.size()));
-    report_.none("fixed_inside", foreign,
-                 "inner points that are marked as fixed, but neither fixed points of the config nor on a curve");
+    report_.none(
+        "fixed_inside", foreign,
+        "inner points that are marked as fixed, but neither fixed points of the config nor on a curve or interface");
   }
 
   /// Why corners or curves cannot be judged; empty: they can.

@@ -23,6 +23,8 @@ constexpr double single_precision = 1e-6;
 constexpr double default_gradation = 0.1;
 // Gradation of a uniform size that grows from parts of the boundary, if the config says `auto`.
 constexpr double boundary_gradation = 0.15;
+// Gradation where regions have sizes of their own, if the config says `auto`.
+constexpr double region_gradation = 0.3;
 
 struct Range {
   double low = 0, high = 0;
@@ -40,10 +42,11 @@ struct Sizing {
     is_expression = type == "expression";
     may_be_raised = config.number("sizing", "shortest_edge").has_value();
     const std::string size_at = config.value("sizing", "size_at");
-    if (type == "uniform" && (size_at.empty() || size_at == "none"))
+    const bool in_regions = has_region_sizes(config);
+    if (type == "uniform" && (size_at.empty() || size_at == "none") && !in_regions)
       return;
-    gradation =
-        config.number("sizing", "gradation").value_or(type == "uniform" ? boundary_gradation : default_gradation);
+    const double automatic = in_regions ? region_gradation : type == "uniform" ? boundary_gradation : default_gradation;
+    gradation = config.number("sizing", "gradation").value_or(automatic);
   }
 };
 

@@ -248,6 +248,34 @@ void read_elements(const ArrayReader& reader, Mesh& mesh) {
     mesh.facets.push_back({ends[k], ends[k + 1]});
 }
 
+std::vector<Facet> pairs_of(const std::vector<std::int64_t>& values) {
+  std::vector<Facet> pairs;
+  for (std::size_t k = 0; k + 1 < values.size(); k += 2)
+    pairs.push_back({values[k], values[k + 1]});
+  return pairs;
+}
+
+/// Edges inside: those on curves, and those between regions; and the list of all edges with labels.
+void read_inner_edges(const ArrayReader& reader, Mesh& mesh) {
+  if (reader.file.has("/Mesh/curves")) {
+    mesh.curve_edges = pairs_of(reader.integers("/Mesh/curves/topology", "int64", {-1, 2}));
+    mesh.curve_numbers = reader.integers("/Mesh/curves/values", "int32", {std::ssize(mesh.curve_edges)});
+    mesh.curve_labels = reader.integers("/Mesh/curves/labels", "int32", {std::ssize(mesh.curve_edges)});
+  }
+  if (reader.file.has("/Mesh/interfaces")) {
+    mesh.interfaces = pairs_of(reader.integers("/Mesh/interfaces/topology", "int64", {-1, 2}));
+    const auto count = std::ssize(mesh.interfaces);
+    mesh.interface_regions = pairs_of(reader.integers("/Mesh/interfaces/regions", "int32", {count, 2}));
+    mesh.interface_pairs = reader.integers("/Mesh/interfaces/values", "int32", {count});
+    mesh.interface_labels = reader.integers("/Mesh/interfaces/labels", "int32", {count});
+    mesh.interface_curves = reader.integers("/Mesh/interfaces/curves", "int32", {count});
+  }
+  if (reader.file.has("/Mesh/lines")) {
+    mesh.lines = pairs_of(reader.integers("/Mesh/lines/topology", "int64", {-1, 2}));
+    mesh.line_labels = reader.integers("/Mesh/lines/labels", "int32", {std::ssize(mesh.lines)});
+  }
+}
+
 /// Reads the data of facets, triangles and points.
 void read_fields(const ArrayReader& reader, Mesh& mesh) {
   const auto n = std::ssize(mesh.points), m = std::ssize(mesh.triangles), b = std::ssize(mesh.facets);
@@ -257,13 +285,7 @@ void read_fields(const ArrayReader& reader, Mesh& mesh) {
   if (reader.file.has("/Mesh/facets/markers"))
     mesh.facet_markers = reader.integers("/Mesh/facets/markers", "int32", {b});
   mesh.asked_sizes = reader.reals("/Mesh/facets/asked_size", "float32", {b});
-  if (reader.file.has("/Mesh/curves")) {
-    const std::vector<std::int64_t> ends = reader.integers("/Mesh/curves/topology", "int64", {-1, 2});
-    for (std::size_t k = 0; k + 1 < ends.size(); k += 2)
-      mesh.curve_edges.push_back({ends[k], ends[k + 1]});
-    mesh.curve_numbers = reader.integers("/Mesh/curves/values", "int32", {std::ssize(mesh.curve_edges)});
-    mesh.curve_labels = reader.integers("/Mesh/curves/labels", "int32", {std::ssize(mesh.curve_edges)});
-  }
+  read_inner_edges(reader, mesh);
   const std::string fields = mesh.has_vtk ? "/VTKHDF/" : "/Mesh/";
   mesh.alpha = reader.reals(fields + "CellData/alpha", "float32", {m});
   mesh.beta = reader.reals(fields + "CellData/beta", "float32", {m});

@@ -1,52 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "checks.hpp"
 #include "exact.hpp"
+#include "topology.hpp"
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <set>
 
 namespace trime_check {
 namespace {
-
-/// An edge as one triangle has it.
-struct Side {
-  std::int64_t low, high;
-  std::uint32_t triangle; // of the file; meshes of more are for larger machines than one
-  std::uint8_t corner;    // opposite to it
-  bool forward;           // the triangle runs from low to high
-};
-
-std::vector<Side> sides_of(const Mesh& mesh) {
-  std::vector<Side> sides;
-  sides.reserve(3 * mesh.triangles.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (std::uint8_t k = 0; k < 3; ++k) {
-      const std::int64_t a = mesh.triangles[t][(k + 1) % 3], b = mesh.triangles[t][(k + 2) % 3];
-      sides.push_back({std::min(a, b), std::max(a, b), static_cast<std::uint32_t>(t), k, a < b});
-    }
-  std::ranges::sort(sides, {}, [](const Side& s) { return std::tuple(s.low, s.high, s.triangle, s.corner); });
-  return sides;
-}
-
-/// A union-find of points.
-class Components {
-public:
-  explicit Components(std::size_t points) : parent_(points) {
-    std::iota(parent_.begin(), parent_.end(), std::int64_t{0});
-  }
-  std::int64_t root(std::int64_t i) {
-    while (of(i) != i)
-      i = of(i) = of(of(i));
-    return i;
-  }
-  void join(std::int64_t a, std::int64_t b) { of(root(a)) = root(b); }
-
-private:
-  std::int64_t& of(std::int64_t i) { return parent_[static_cast<std::size_t>(i)]; }
-  std::vector<std::int64_t> parent_;
-};
 
 /// All that looks at the triangles and facets together.
 class Surface {

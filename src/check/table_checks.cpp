@@ -306,15 +306,20 @@ bool check_arrays(const StoredFile& file, const Mesh& mesh, Report& report) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     if (!std::ranges::all_of(mesh.triangles[t], is_id))
       range.note([&] { return fmt::format("triangle {}", t); });
-  for (std::size_t k = 0; k < mesh.facets.size(); ++k)
-    if (!std::ranges::all_of(mesh.facets[k], is_id))
-      range.note([&] { return fmt::format("facet {}", k); });
+  const auto check_edges = [&](const std::vector<Facet>& edges, const char* what) {
+    for (std::size_t k = 0; k < edges.size(); ++k)
+      if (!std::ranges::all_of(edges[k], is_id))
+        range.note([&] { return fmt::format("{} {}", what, k); });
+  };
+  check_edges(mesh.facets, "facet");
+  check_edges(mesh.curve_edges, "edge on a curve");
+  check_edges(mesh.interfaces, "interface edge");
   for (std::size_t i = 0; i < mesh.points.size(); ++i)
     if (!std::isfinite(mesh.points[i].x) || !std::isfinite(mesh.points[i].y))
       infinite.note([&] { return fmt::format("point {} {}", i, place_of(mesh.points[i])); });
-  report.none(
-      "id_range", range,
-      fmt::format("triangles and facets with vertex ids outside the range of the {} points", mesh.points.size()));
+  report.none("id_range", range,
+              fmt::format("triangles, facets and edges inside with vertex ids outside the range of the {} points",
+                          mesh.points.size()));
   report.none("finite", infinite, "points whose coordinates are not finite numbers");
   if (range.count > 0)
     return false;
