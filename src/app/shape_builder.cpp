@@ -76,6 +76,21 @@ contours::Faults faults_of(const PartOptions& part) {
   return part.repair ? contours::Faults::repair : contours::Faults::collect;
 }
 
+/// Reads the lines of all curves, then the polygons of all regions that have a file.
+void read_inner_files(const RunOptions& options, std::span<contours::Contour> contours) {
+  for (std::size_t k = 0; k < options.curves.size(); ++k) {
+    const CurveOptions& curve = options.curves[k];
+    contours[k] = contours::read_curves(
+        curve.file, fmt::format("; 'file' in [curve.{}]{}", curve.name, hint_of(curve.file_is_relative)),
+        curve.attribute);
+  }
+  for (std::size_t k = 0; k < options.regions.size(); ++k)
+    if (const RegionOptions& region = options.regions[k]; !region.file.empty())
+      contours[options.curves.size() + k] = contours::read_contour(
+          region.file, fmt::format("; 'file' in [region.{}]{}", region.name, hint_of(region.file_is_relative)),
+          region.attribute);
+}
+
 /// The rings of parts that are contours, by part, projected. Rank 0 reads. Collective.
 std::vector<contours::Contour> read_contours(const RunOptions& options, const comm::Communicator& comm, Log& log,
                                              MapSystem& map) {
@@ -99,17 +114,7 @@ std::vector<contours::Contour> read_contours(const RunOptions& options, const co
         contours::repair_rings(contours[k]);
         contours::check_reading(contours[k], contours::Faults::repair, "rings with an area");
       }
-    for (std::size_t k = 0; k < options.curves.size(); ++k) {
-      const CurveOptions& curve = options.curves[k];
-      contours[options.parts.size() + k] = contours::read_curves(
-          curve.file, fmt::format("; 'file' in [curve.{}]{}", curve.name, hint_of(curve.file_is_relative)),
-          curve.attribute);
-    }
-    for (std::size_t k = 0; k < options.regions.size(); ++k)
-      if (const RegionOptions& region = options.regions[k]; !region.file.empty())
-        contours[options.parts.size() + options.curves.size() + k] = contours::read_contour(
-            region.file, fmt::format("; 'file' in [region.{}]{}", region.name, hint_of(region.file_is_relative)),
-            region.attribute);
+    read_inner_files(options, std::span(contours).subspan(options.parts.size()));
     map = project_contours(options, contours, log);
   });
   if (comm.size() > 1)

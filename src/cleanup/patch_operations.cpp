@@ -203,6 +203,8 @@ void PatchOperations::add(const PatchOperation& operation) {
 
 void PatchOperations::list(const Patch& now, const BadPlace& place, bool is_thorough) {
   all_.clear();
+  if (!now.walls.empty())
+    list_between_walls(now, place.corners);
   add_insertion(middle_of_longest_edge(now, place.corners));
   for (const LocalIndex v : place.corners)
     if (is_free(now, v))
@@ -222,19 +224,36 @@ void PatchOperations::list_against_obtuse(const Patch& now, const BadPlace& plac
     const LocalIndex v = place.corners[k], next = place.corners[(k + 1) % 3], previous = place.corners[(k + 2) % 3];
     if (!now.is_chord(v, next) || !now.is_chord(previous, v))
       continue;
-    // A corner with one triangle becomes one with two, whose common edge is as long as the chords.
-    const Vec2 p = now.mesh.position(v), u = now.mesh.position(next) - p, w = now.mesh.position(previous) - p;
-    const double a = geometry::length(u), b = geometry::length(w);
-    const Vec2 along = (1 / a) * u + (1 / b) * w;
-    const Vec2 inside = p + (0.5 * (a + b) / geometry::length(along)) * along;
-    add_insertion(inside);
-    for (const LocalIndex far : {next, previous})
-      if (is_free(now, far))
+    divide_corner(now, v, next, previous);
+  }
+}
+
+/// A corner with one triangle becomes one with two, whose common edge is as long as the chords.
+void PatchOperations::divide_corner(const Patch& now, LocalIndex v, LocalIndex next, LocalIndex previous) {
+  const Vec2 p = now.mesh.position(v), u = now.mesh.position(next) - p, w = now.mesh.position(previous) - p;
+  const double a = geometry::length(u), b = geometry::length(w);
+  const Vec2 along = (1 / a) * u + (1 / b) * w;
+  const Vec2 inside = p + (0.5 * (a + b) / geometry::length(along)) * along;
+  add_insertion(inside);
+  for (const LocalIndex far : {next, previous})
+    if (is_free(now, far))
+      all_.push_back({.removed = {far, -1}, .inserted = inside});
+  if (const auto apexes = now.mesh.apexes(next, previous); apexes)
+    for (const LocalIndex far : {apexes->left, apexes->right})
+      if (far >= PatchMesh::frame && far != v && is_free(now, far))
         all_.push_back({.removed = {far, -1}, .inserted = inside});
-    if (const auto apexes = now.mesh.apexes(next, previous); apexes)
-      for (const LocalIndex far : {apexes->left, apexes->right})
-        if (far >= PatchMesh::frame && far != v && is_free(now, far))
-          all_.push_back({.removed = {far, -1}, .inserted = inside});
+}
+
+/// Corners between two curves inside, or between one and the boundary. Sites on curves do not move, so a site inside
+/// must do all.
+void PatchOperations::list_between_walls(const Patch& now, const Corners& worst) {
+  const auto is_line = [&](LocalIndex a, LocalIndex b) {
+    return now.is_wall(a, b) || now.is_chord(a, b) || now.is_chord(b, a);
+  };
+  for (std::size_t k = 0; k < 3; ++k) {
+    const LocalIndex v = worst[k], next = worst[(k + 1) % 3], previous = worst[(k + 2) % 3];
+    if ((now.is_wall(v, next) || now.is_wall(v, previous)) && is_line(v, next) && is_line(v, previous))
+      divide_corner(now, v, next, previous);
   }
 }
 

@@ -78,6 +78,8 @@ private:
   void add_insertion(geometry::Vec2 p) { add({.inserted = p}); }
   void add_removal(LocalIndex v) { add({.removed = {v, -1}}); }
   void list_at_boundary(const Patch& now, const BadPlace& place);
+  void divide_corner(const Patch& now, LocalIndex v, LocalIndex next, LocalIndex previous);
+  void list_between_walls(const Patch& now, const Corners& worst);
   void list_around(const Patch& now, const Corners& worst, LocalIndex v, bool is_thorough);
 
   std::vector<PatchOperation> all_;

@@ -2,6 +2,7 @@
 #include "facade/build_shape.hpp"
 
 #include "comm/agree.hpp"
+#include "sizing/region_size.hpp"
 #include "trime/contours/contour.hpp"
 #include "trime/core/error.hpp"
 #include "trime/geometry/lattice.hpp"
@@ -15,6 +16,7 @@
 #include <cctype>
 #include <cmath>
 #include <optional>
+#include <set>
 
 namespace trime {
 namespace {
@@ -95,15 +97,19 @@ Box box_of(UsedPart& part) {
   return box;
 }
 
-Box container_of(const Shape& shape, const MeshOptions& options, std::vector<UsedPart>& parts) {
+std::vector<std::string> names_of(const std::vector<UsedPart>& parts) {
   std::vector<std::string> names;
-  std::vector<Box> boxes;
-  for (UsedPart& part : parts) {
+  for (const UsedPart& part : parts)
     names.push_back(part.node->name);
+  return names;
+}
+
+Box container_of(const Shape& shape, const MeshOptions& options, std::vector<UsedPart>& parts) {
+  std::vector<Box> boxes;
+  for (UsedPart& part : parts)
     boxes.push_back(box_of(part));
-  }
   boxes.push_back(geometry::unit_square); // the domain
-  const Box around = shape::Region::parse(shape.text(), names).box(boxes);
+  const Box around = shape::Region::parse(shape.text(), names_of(parts)).box(boxes);
   return options.container ? *options.container : geometry::container_around(around);
 }
 
@@ -130,6 +136,36 @@ shape::Part build_part(const UsedPart& part, const geometry::Frame& frame) {
   return shape::Part::contour(name, part.contour, {}, frame);
 }
 
+void check_inner_name(const std::string& name, const char* what, std::set<std::string>& names) {
+  if (name.empty())
+    throw ConfigError(fmt::format("a {} in MeshOptions has no name", what));
+  if (!names.insert(name).second)
+    throw ConfigError(fmt::format("two {}s in MeshOptions are called '{}': expected a name for each", what, name));
+}
+
+/// @throws ConfigError for names, GeometryError for curves
+shape::InnerParts inner_parts(const MeshOptions& options, const geometry::Frame& frame) {
+  shape::InnerParts inner;
+  std::set<std::string> regions{options.rest}, curves;
+  for (const Region& region : options.regions) {
+    check_inner_name(region.name, "region", regions);
+    inner.division.regions.push_back({region.name, region.shape.text()});
+  }
+  inner.division.rest = options.rest;
+  inner.division.cover_all = options.regions_cover_all;
+  for (const Curve& curve : options.curves) {
+    check_inner_name(curve.name, "curve", curves);
+    std::vector<shape::CurveLine> lines;
+    for (const std::vector<Vec2>& line : curve.lines) {
+      const bool closed = line.size() > 2 && line.front() == line.back();
+      lines.push_back({{line.begin(), line.end() - (closed ? 1 : 0)}, closed});
+    }
+    inner.curves.push_back(shape::Part::curve(curve.name, std::move(lines), frame));
+    inner.clip.push_back(curve.clip ? 1 : 0);
+  }
+  return inner;
+}
+
 std::vector<geometry::FixedPoint> fixed_points_of(const MeshOptions& options) {
   std::vector<geometry::FixedPoint> points;
   for (std::size_t k = 0; k < options.fixed_points.size(); ++k)
@@ -142,7 +178,11 @@ std::vector<geometry::FixedPoint> fixed_points_of(const MeshOptions& options) {
 geometry::Domain build_domain(const Shape& shape, const MeshOptions& options, const comm::Communicator& comm,
                               Log& log) {
   std::vector<UsedPart> used;
-  comm::run_agreed(comm, [&] { collect(shape, used); });
+  comm::run_agreed(comm, [&] {
+    collect(shape, used);
+    for (const Region& region : options.regions)
+      collect(region.shape, used);
+  });
   read_contours(used, comm);
   std::optional<geometry::Domain> domain;
   std::vector<std::string> warnings;
@@ -155,7 +195,7 @@ geometry::Domain build_domain(const Shape& shape, const MeshOptions& options, co
       parts.push_back(build_part(part, frame));
       warnings.insert(warnings.end(), parts.back().warnings().begin(), parts.back().warnings().end());
     }
-    domain = shape::domain_of(std::move(parts), shape.text(), frame);
+    domain = shape::domain_of(std::move(parts), shape.text(), frame, inner_parts(options, frame));
     domain->set_fixed_points(fixed_points_of(options));
   });
   for (const std::string& warning : warnings)
@@ -176,6 +216,21 @@ Size automatic_size(double gradation) {
 
 namespace {
 
+/// A size together with the one that it bounds in regions.
+class OwnedRegionSize final : public sizing::SizeField {
+public:
+  OwnedRegionSize(std::shared_ptr<const sizing::SizeField> field, const geometry::Domain& domain,
+                  std::vector<sizing::RegionBound> bounds)
+      : field_(std::move(field)), bounded_(*field_, domain, std::move(bounds)) {}
+  double size(geometry::Vec2 p) const override { return bounded_.size(p); }
+  bool jumps() const override { return true; }
+  std::size_t memory_bytes() const override { return bounded_.memory_bytes(); }
+
+private:
+  std::shared_ptr<const sizing::SizeField> field_;
+  sizing::RegionSize bounded_;
+};
+
 /// A function of the user as the lower level asks it.
 class CalledSize final : public sizing::SizeField {
 public:
@@ -186,11 +241,10 @@ private:
   const std::function<double(geometry::Vec2)>& function_;
 };
 
-} // namespace
-
-std::shared_ptr<const sizing::SizeField> build_size(const Size& size, const geometry::Domain& domain,
-                                                    const meshing::MeshOptions& options,
-                                                    const comm::Communicator& comm) {
+/// The size before it is bounded in regions. Collective.
+std::shared_ptr<const sizing::SizeField> common_size(const Size& size, const geometry::Domain& domain,
+                                                     const meshing::MeshOptions& options,
+                                                     const comm::Communicator& comm) {
   if (size.field())
     return size.field();
   if (size.function())
@@ -207,6 +261,22 @@ std::shared_ptr<const sizing::SizeField> build_size(const Size& size, const geom
   automatic.period_x = boundary.periods.x;
   automatic.period_y = boundary.periods.y;
   return sizing::make_automatic_size(comm, boundary, automatic);
+}
+
+} // namespace
+
+std::shared_ptr<const sizing::SizeField> build_size(const Size& size, const geometry::Domain& domain,
+                                                    const std::vector<Region>& regions,
+                                                    const meshing::MeshOptions& options,
+                                                    const comm::Communicator& comm) {
+  std::vector<sizing::RegionBound> bounds;
+  for (std::size_t k = 0; k < regions.size(); ++k)
+    if (regions[k].size)
+      bounds.push_back({static_cast<int>(k) + 1, *regions[k].size});
+  std::shared_ptr<const sizing::SizeField> common = common_size(size, domain, options, comm);
+  if (bounds.empty())
+    return common;
+  return std::make_shared<const OwnedRegionSize>(std::move(common), domain, std::move(bounds));
 }
 
 } // namespace trime

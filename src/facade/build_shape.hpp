@@ -74,11 +74,12 @@ inline double called(const std::function<double(geometry::Vec2)>& function, geom
 /// @note Collective.
 geometry::Domain build_domain(const Shape& shape, const MeshOptions& options, const comm::Communicator& comm, Log& log);
 
-/// Makes the size field.
+/// Makes the size field, bounded in those regions that have a size.
 /// @pre `size` outlives the field
 /// @throws ConfigError on all ranks together
 /// @note Collective.
 std::shared_ptr<const sizing::SizeField> build_size(const Size& size, const geometry::Domain& domain,
+                                                    const std::vector<Region>& regions,
                                                     const meshing::MeshOptions& options,
                                                     const comm::Communicator& comm);
 

@@ -41,7 +41,10 @@ std::vector<std::string> items_of(const Shape& shape, const MeshOptions& options
       fmt::format("connections {}, components {} at ({}, {}), max_loss {}", static_cast<int>(features.connect),
                   static_cast<int>(features.components), features.component_place.x, features.component_place.y,
                   text_of(features.max_loss)),
-      fmt::format("{} fixed points", options.fixed_points.size())};
+      fmt::format("rest '{}', regions_cover_all {}", options.rest, options.regions_cover_all),
+      fmt::format("{} curves, {} fixed points", options.curves.size(), options.fixed_points.size())};
+  for (const Region& region : options.regions)
+    items.push_back(fmt::format("region '{}' {} of size {}", region.name, region.shape.text(), text_of(region.size)));
   for (const Vec2 p : options.fixed_points)
     items.push_back(fmt::format("fixed point ({}, {})", p.x, p.y));
   return items;
@@ -84,6 +87,10 @@ void check_values(const MeshOptions& options) {
   check_positive(options.edge_length, "edge_length");
   check_positive(options.min_size, "min_size");
   check_positive(options.max_size, "max_size");
+  for (const Region& region : options.regions)
+    if (region.size && !(*region.size > 0 && std::isfinite(*region.size)))
+      throw ConfigError(fmt::format("the size of the region '{}' in MeshOptions: expected a number above 0, found {}",
+                                    region.name, *region.size));
   if (options.gradation && !(*options.gradation > 0))
     throw ConfigError(fmt::format("MeshOptions::gradation: expected a number above 0, found {}", *options.gradation));
   if (const std::optional<double>& loss = options.features.max_loss; loss && !(*loss >= 0 && *loss <= 1))

@@ -102,7 +102,10 @@ std::optional<double> growth_of(const MeshOptions& given, const Size& size) {
     return std::isfinite(*given.gradation) ? given.gradation : std::nullopt;
   if (size.is_automatic())
     return size.gradation() > 0 ? std::optional(size.gradation()) : std::nullopt;
-  return size.function() || size.field() ? std::optional(sizing::SizingRules::function_gradation) : std::nullopt;
+  const auto is_sized = [](const Region& region) { return region.size.has_value(); };
+  return size.function() || size.field() || std::ranges::any_of(given.regions, is_sized)
+             ? std::optional(sizing::SizingRules::function_gradation)
+             : std::nullopt;
 }
 
 meshing::MeshOptions lower_options(const MeshOptions& given, const Size& size) {
@@ -312,7 +315,7 @@ Mesh make_mesh(MPI_Comm handle, const Shape& shape, const Size& size, const Mesh
   const geometry::Domain domain = build_domain(shape, options, *comm, log);
   const geometry::Boundary& boundary = domain.boundary();
   const meshing::MeshOptions lower = lower_options(options, size);
-  const std::shared_ptr<const sizing::SizeField> field = build_size(size, domain, lower, *comm);
+  const std::shared_ptr<const sizing::SizeField> field = build_size(size, domain, options.regions, lower, *comm);
   TimerTable timers;
   auto made = std::make_unique<Mesh::Implementation>();
   made->communicator = comm;

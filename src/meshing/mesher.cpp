@@ -107,6 +107,7 @@ private:
   bool clean_up();
   MeshResult extract();
   void judge_bodies();
+  void tell_of_regions(const certificate::RegionProof& proof, MeshResult& result) const;
   void promise_shortest_edge(double least, MeshResult& result) const;
   std::string reason_for_short_edge(const mesh::QualitySummary& quality) const;
   void tell_of_run(MeshResult& result);
@@ -284,6 +285,19 @@ bool Run::raise_at_short_edges(int trial) {
   return true;
 }
 
+/// Sets the table of the regions, and says which of them are too small for the triangles.
+void Run::tell_of_regions(const certificate::RegionProof& proof, MeshResult& result) const {
+  const geometry::Regions& given = run_.domain.regions();
+  for (std::size_t k = 0; k < proof.areas.size(); ++k) {
+    if (proof.triangles[k] == 0 && k > 0)
+      run_.log.warning("the region '{}', of area {:.6g}, has no triangles: all of it is smaller or narrower than the "
+                       "triangles and belongs to the regions around it; use more points, or keep_features = true in "
+                       "[meshing]",
+                       given.names[k], given.areas[k]);
+    result.regions.push_back({proof.triangles[k], proof.areas[k], given.areas[k]});
+  }
+}
+
 /// The arrays that are written, with their quality and the certificate.
 MeshResult Run::extract() {
   const sites::StageView view = stage_.view(run_.lattice, boundary_.fixed().all());
@@ -309,15 +323,7 @@ MeshResult Run::extract() {
                                          result.mesh);
     certificate::RegionProof proof = certificate::prove_regions(view, numbering, regions, result.mesh);
     std::ranges::copy(proof.checks, std::back_inserter(result.checks));
-    const geometry::Regions& given = run_.domain.regions();
-    for (std::size_t k = 0; k < proof.areas.size(); ++k) {
-      if (proof.triangles[k] == 0 && k > 0)
-        run_.log.warning("the region '{}', of area {:.6g}, has no triangles: all of it is smaller or narrower than the "
-                         "triangles and belongs to the regions around it; use more points, or keep_features = true in "
-                         "[meshing]",
-                         given.names[k], given.areas[k]);
-      result.regions.push_back({proof.triangles[k], proof.areas[k], given.areas[k]});
-    }
+    tell_of_regions(proof, result);
   }
   result.checks.push_back(extraction::worst_alpha_check(result.quality, run_.options.worst_alpha));
   if (run_.fit.gradation || run_.relative_size.is_uniform()) // else the size may jump from point to point

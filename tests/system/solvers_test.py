@@ -53,6 +53,16 @@ class Solvers(unittest.TestCase):
         self.assertAlmostEqual(runs[0][2] / solve("04_solver", SIZES[0], 1)[2], 1, delta=SOLVER_TOLERANCE)
 
 
+class Materials(unittest.TestCase):
+    def test_the_kink_at_the_interface_is_exact(self):
+        for ranks in (1, 2, 3):
+            start = [] if ranks == 1 else [MPIEXEC, "-np", str(ranks)]
+            done = subprocess.run([*start, str(EXAMPLES / "08_materials"), "1000"], env=environment(1),
+                                  capture_output=True, text=True, timeout=120, check=False)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            self.assertIn("an interface of length 0.5;", done.stdout)
+
+
 class EdgeCut(unittest.TestCase):
     def test_parts_are_nearly_as_compact_as_those_of_partitioners(self):
         done = subprocess.run([str(ROOT / "scripts" / "edge_cut.py"), "--points", "2e4", "--parts", "4,16",

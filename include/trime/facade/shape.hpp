@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -57,5 +58,21 @@ Shape function(const std::string& name, std::function<double(Vec2)> distance, co
 /// The container itself, as a part with the name `domain`. A periodic shape is this part, or this part minus others.
 Shape domain();
 /// @}
+
+/// @brief A region of a shape, such as a material. Triangles know their region, and edges follow the interfaces between
+/// regions, see MeshOptions::regions.
+struct Region {
+  std::string name;
+  Shape shape;                  ///< the places of the region; what lies outside of the mesh is left out
+  std::optional<double> size{}; ///< largest size in the region: a length if MeshOptions::absolute_sizes is set,
+                                ///< otherwise relative to the size of the mesh, so that 0.5 halves a uniform size
+};
+
+/// @brief A curve inside a shape that edges of the mesh follow. Lines may cross, branch and end inside.
+struct Curve {
+  std::string name;
+  std::vector<std::vector<Vec2>> lines; ///< the vertices of each line; a line that ends where it begins is a ring
+  bool clip = false;                    ///< what lies outside of the shape is left out; otherwise it is a GeometryError
+};
 
 } // namespace trime

@@ -88,6 +88,48 @@ TEST(Facade, BoundaryEdgesByName) {
   EXPECT_EQ(local.sum(slab), local.sum(owned));
 }
 
+TEST(Facade, RegionsAndCurves) {
+  const Shape left = rectangle("left", {0, 0}, {.5, 1});
+  const MeshOptions options{.points = 1000,
+                            .regions = {{"iron", left, .5}, {"all", domain()}},
+                            .curves = {{"fault", {{{.7, .2}, {.7, .8}}}}}};
+  const Mesh mesh = make_mesh(MPI_COMM_WORLD, domain(), options);
+  EXPECT_TRUE(mesh.certified());
+  EXPECT_EQ(mesh.names().regions, (std::vector<std::string>{"domain", "iron", "all"}));
+  EXPECT_EQ(mesh.names().interfaces, (std::vector<std::string>{"iron|all"}));
+  const LocalMesh local = mesh.local();
+  for (LocalIndex t = 0; t < std::ssize(local.triangles()); ++t) {
+    double x = 0;
+    for (const LocalIndex corner : local.triangles()[at(t)])
+      x += local.points()[at(corner)].x / 3;
+    EXPECT_EQ(local.region(t), x < .5 ? 2 : 3);
+  }
+  const auto length_of = [&](const std::vector<InnerEdge>& edges) {
+    double length = 0;
+    for (const InnerEdge& edge : edges)
+      length += edge.owned ? geometry::length(local.points()[at(edge.second)] - local.points()[at(edge.first)]) : 0;
+    return local.sum(length);
+  };
+  EXPECT_NEAR(length_of(local.interfaces("iron|all")), 1, 1e-12);
+  EXPECT_NEAR(length_of(local.curve_edges("fault")), .6, 1e-12);
+  EXPECT_EQ(mesh.hash(), make_mesh(MPI_COMM_SELF, domain(), options).hash());
+}
+
+TEST(Facade, WrongRegionsAndCurves) {
+  const Shape square = rectangle("square", {0, 0}, {.5, .5}), other = rectangle("other", {.6, .6}, {.7, .7});
+  const auto make = [&](const MeshOptions& options) {
+    return [&options, &square] { make_mesh(MPI_COMM_WORLD, square, options); };
+  };
+  EXPECT_NE(error_of<GeometryError>(make({.points = 100, .regions = {{"far", other}}})).find("region 'far'"),
+            std::string::npos);
+  EXPECT_NE(error_of<ConfigError>(make({.points = 100, .regions = {{"a", square}, {"a", square}}})).find("'a'"),
+            std::string::npos);
+  EXPECT_NE(error_of<ConfigError>(make({.points = 100, .regions = {{"a", square, -1}}})).find("size of the region"),
+            std::string::npos);
+  EXPECT_NE(error_of<GeometryError>(make({.points = 100, .curves = {{"c", {{{.1, .1}, {.9, .1}}}}}})).find("curve 'c'"),
+            std::string::npos);
+}
+
 TEST(Facade, GhostsGetTheValuesOfTheirOwners) {
   const LocalMesh local = make_mesh(MPI_COMM_WORLD, plate(), {.points = 1000}).local(); // the mesh is gone
   std::vector<double> values(local.points().size(), -1);
