@@ -81,7 +81,7 @@ void append_entity(std::string& text, const ExchangeMesh& mesh, std::size_t numb
 }
 
 /// @brief Returns for each region the names of edges on its border: all parts and curves, and its own interfaces. A
-/// mesh of grains has so many interfaces that not every surface may list all of them. Collective.
+/// mesh of many grains would be huge if every surface listed all interfaces. Collective.
 std::vector<std::vector<std::size_t>> names_around(const ExchangeMesh& mesh) {
   struct Sides {
     std::int32_t pair;
