@@ -217,7 +217,7 @@ class Regions(RegionsTest):
         self.assertEqual(mesh.names, {1: "domain", 2: "a"})
         self.check_areas(mesh, {"a": 0.25, "domain": 0.75})
         (self.directory / "mesh.h5").unlink()
-        self.refused(text, 3, r"\b0\.75\b", r"\(?0\.\d+,? 0\.\d+\)?", shape="geometry = domain\ncover = all")
+        self.refused(text, 3, r"\b0\.75\b", r"\([\d.]+, [\d.]+\)", shape="geometry = domain\ncover = all")
 
     def test_ragged_interface(self):
         ring = [(0.0, 0.0), (1.0, 0.0)] + [(1 - 0.005 * k, 0.5 + 0.004 * (-1)**k) for k in range(201)]
