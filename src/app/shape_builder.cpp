@@ -23,6 +23,8 @@ namespace {
 
 // [h] Where nothing is simplified, rings that touch are separated by this: triangles around the gap are about as small.
 constexpr double kept_gap = 0.1;
+// Pairs of regions that share an area, of which a warning each tells.
+constexpr std::size_t most_overlaps = 3;
 // [h] Faces between regions that are narrower belong to the region next to them. Not measured.
 constexpr double narrowest_face = 0.1;
 // [mean h] Where the size varies, it may be so small at a face. Not measured.
@@ -271,12 +273,18 @@ void tell_of(const geometry::InnerCurves& curves, Log& log) {
 void tell_of(const geometry::Regions& regions, Log& log) {
   if (!regions.any())
     return;
-  for (const geometry::RegionOverlap& overlap : regions.overlaps)
-    log.warning(
-        "the regions '{}' and '{}' share an area of {:.6g}, for example at {}; it belongs to '{}', whose section "
-        "comes first",
-        regions.names[static_cast<std::size_t>(overlap.first)], regions.names[static_cast<std::size_t>(overlap.second)],
-        overlap.area, Place(overlap.place, 6), regions.names[static_cast<std::size_t>(overlap.first)]);
+  std::vector<geometry::RegionOverlap> overlaps = regions.overlaps;
+  std::stable_sort(overlaps.begin(), overlaps.end(), [](const auto& a, const auto& b) { return a.area > b.area; });
+  for (std::size_t k = 0; k < std::min(overlaps.size(), most_overlaps); ++k) {
+    const std::string& first = regions.names[static_cast<std::size_t>(overlaps[k].first)];
+    log.warning("the regions '{}' and '{}' share an area of {:.6g}, for example at {}; it belongs to '{}', which comes "
+                "first",
+                first, regions.names[static_cast<std::size_t>(overlaps[k].second)], overlaps[k].area,
+                Place(overlaps[k].place, 6), first);
+  }
+  if (overlaps.size() > most_overlaps)
+    log.warning("{} more pairs of regions share smaller areas, which belong to the first region of each pair",
+                overlaps.size() - most_overlaps);
   if (const geometry::AbsorbedFaces& absorbed = regions.absorbed; absorbed.count > 0)
     log.summary(
         "{} part{} of regions with a total area of {:.6g} {} smaller or narrower than the triangles and {} to the "

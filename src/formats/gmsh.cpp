@@ -2,10 +2,15 @@
 // MSH 4.1 and 2.2 of Gmsh (reference manual, "MSH file format" and "Legacy formats"), binary: boundary parts, curves,
 // interfaces and regions are physical groups. Each part is a curve and each region a surface, since all elements of one
 // entity lie in the same groups.
+#include "comm/agree.hpp"
 #include "formats/exchange_mesh.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <initializer_list>
+#include <memory>
+#include <numeric>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -40,22 +45,20 @@ std::vector<std::size_t> regions_with_triangles(const ExchangeMesh& mesh) {
   return regions;
 }
 
-/// meshio knows a group by its name alone: a region that is called like a part of the boundary gets "region" in front.
-std::string surface_name(std::string name, const ExchangeMesh& mesh, const std::vector<std::size_t>& parts) {
-  const auto is_taken = [&](std::size_t part) { return mesh.line_names()[part] == name; };
-  while (std::any_of(parts.begin(), parts.end(), is_taken))
-    name = "region " + name;
-  return name;
-}
-
 std::string physical_names(const ExchangeMesh& mesh) {
-  const Names& names = mesh.names();
   const std::vector<std::size_t> parts = parts_with_edges(mesh), regions = regions_with_triangles(mesh);
   std::string text = fmt::format("$PhysicalNames\n{}\n", parts.size() + regions.size());
-  for (const std::size_t k : parts)
+  std::set<std::string> taken;
+  for (const std::size_t k : parts) {
     text += fmt::format("{} {} {}\n", curve, k + 1, quoted(mesh.line_names()[k]));
-  for (const std::size_t k : regions)
-    text += fmt::format("{} {} {}\n", surface, k + 1, quoted(surface_name(names.regions[k], mesh, parts)));
+    taken.insert(mesh.line_names()[k]);
+  }
+  for (const std::size_t k : regions) {
+    std::string name = mesh.names().regions[k];
+    while (taken.contains(name)) // meshio knows a group by its name alone
+      name = "region " + name;
+    text += fmt::format("{} {} {}\n", surface, k + 1, quoted(name));
+  }
   return text + "$EndPhysicalNames\n";
 }
 
@@ -77,18 +80,44 @@ void append_entity(std::string& text, const ExchangeMesh& mesh, std::size_t numb
   append_bytes(text, static_cast<std::uint64_t>(bounding));
 }
 
+/// @brief Returns for each region the names of edges on its border: all parts and curves, and its own interfaces. A
+/// mesh of grains has so many interfaces that not every surface may list all of them. Collective.
+std::vector<std::vector<std::size_t>> names_around(const ExchangeMesh& mesh) {
+  struct Sides {
+    std::int32_t pair;
+    std::array<std::int32_t, 2> regions;
+    auto operator<=>(const Sides&) const = default;
+  };
+  std::set<Sides> here;
+  for (std::size_t k = 0; k < mesh.mesh().interfaces.size(); ++k)
+    here.insert({mesh.mesh().interface_pairs[k], mesh.mesh().interface_regions[k]});
+  const std::vector<Sides> all = comm::gather_everywhere(mesh.comm(), std::vector<Sides>(here.begin(), here.end()));
+  const std::size_t before = mesh.names().parts.size() + mesh.names().curves.size();
+  std::vector<std::vector<std::size_t>> names(mesh.names().regions.size());
+  for (std::vector<std::size_t>& of_region : names)
+    for (std::size_t name = 0; name < before; ++name)
+      if (mesh.lines_of(name) > 0)
+        of_region.push_back(name);
+  for (const Sides& sides : std::set<Sides>(all.begin(), all.end()))
+    if (const std::size_t name = before + static_cast<std::size_t>(sides.pair); mesh.lines_of(name) > 0)
+      for (const std::int32_t region : sides.regions)
+        names.at(static_cast<std::size_t>(region) - 1).push_back(name);
+  return names;
+}
+
 std::string entities(const ExchangeMesh& mesh) {
   const std::vector<std::size_t> parts = parts_with_edges(mesh);
   const std::vector<std::size_t> regions = regions_with_triangles(mesh);
+  const std::vector<std::vector<std::size_t>> around = names_around(mesh);
   std::string text = "$Entities\n";
   for (const std::size_t count : {std::size_t{0}, parts.size(), regions.size(), std::size_t{0}})
     append_bytes(text, static_cast<std::uint64_t>(count));
   for (const std::size_t part : parts)
     append_entity(text, mesh, part + 1, 0);
   for (const std::size_t region : regions) {
-    append_entity(text, mesh, region + 1, parts.size());
-    for (const std::size_t part : parts)
-      append_bytes(text, static_cast<std::int32_t>(part + 1));
+    append_entity(text, mesh, region + 1, around[region].size());
+    for (const std::size_t name : around[region])
+      append_bytes(text, static_cast<std::int32_t>(name + 1));
   }
   return text + "\n$EndEntities\n";
 }
@@ -126,32 +155,77 @@ void add_nodes(const ExchangeMesh& mesh, std::vector<io::TextRows>& rows) {
   rows.push_back(mesh.once("\n$EndNodes\n"));
 }
 
+/// The rows of this rank by their number, which is a label or a region: one pass for all blocks of a section.
+class RowsByNumber {
+public:
+  /// @param number returns that of a row, from 1 to `most`
+  template <class Number>
+  RowsByNumber(std::int64_t rows, std::size_t most, const Number& number) : first_(most + 2, 0), rows_(at(rows)) {
+    for (std::int64_t row = 0; row < rows; ++row)
+      ++first_[at(number(row)) + 1];
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    std::vector<std::int64_t> next = first_;
+    for (std::int64_t row = 0; row < rows; ++row)
+      rows_[at(next[at(number(row))]++)] = static_cast<LocalIndex>(row);
+  }
+  std::int64_t count(std::size_t number) const { return first_[number + 1] - first_[number]; }
+  std::int64_t row(std::size_t number, std::int64_t k) const { return rows_[at(first_[number] + k)]; }
+
+private:
+  static std::size_t at(std::int64_t index) { return static_cast<std::size_t>(index); }
+
+  std::vector<std::int64_t> first_; // by number
+  std::vector<LocalIndex> rows_;
+};
+
+/// The elements of one type: a block for each name, which becomes an entity.
+struct BlockSet {
+  int dimension;
+  std::int32_t type;
+  std::vector<std::size_t> names; ///< those with elements, ascending
+  io::TextRows elements;
+  std::function<std::int64_t(std::int64_t row)> number; ///< of an element: that of its name, from 1
+  std::function<GlobalId(std::size_t name)> count;      ///< over all ranks
+};
+
+void add_blocks(const ExchangeMesh& mesh, const BlockSet& set, std::vector<io::TextRows>& rows) {
+  const auto by_number = std::make_shared<const RowsByNumber>( // rows outlive this function
+      set.elements.rows, set.names.empty() ? 0 : set.names.back() + 1, set.number);
+  for (const std::size_t name : set.names) {
+    rows.push_back(mesh.once(block(set.dimension, name + 1, set.type, set.count(name))));
+    rows.push_back(
+        {by_number->count(name + 1), [by_number, name, append = set.elements.append](std::int64_t k, std::string& to) {
+           append(by_number->row(name + 1, k), to);
+         }});
+  }
+}
+
 /// Edges come first and keep their numbers in the mesh; so do the triangles after them.
 void add_elements(const ExchangeMesh& mesh, std::vector<io::TextRows>& rows) {
-  const GlobalId facets = mesh.lines(), elements = facets + mesh.triangles();
-  const std::vector<std::size_t> parts = parts_with_edges(mesh);
-  const std::vector<std::size_t> regions = regions_with_triangles(mesh);
+  const GlobalId lines = mesh.lines(), elements = lines + mesh.triangles();
+  const BlockSet edges{
+      curve,
+      line_type,
+      parts_with_edges(mesh),
+      mesh.line_rows([](std::int64_t, GlobalId id, const std::array<GlobalId, 2>& ends, std::string& to) {
+        append_counts(to, {id + 1, ends[0] + 1, ends[1] + 1});
+      }),
+      [&mesh](std::int64_t row) { return mesh.line_label(row); },
+      [&mesh](std::size_t name) { return mesh.lines_of(name); }};
+  const BlockSet triangles{
+      surface,
+      triangle_type,
+      regions_with_triangles(mesh),
+      mesh.triangle_rows([lines](std::int64_t, GlobalId id, const std::array<GlobalId, 3>& corners, std::string& to) {
+        append_counts(to, {lines + id + 1, corners[0] + 1, corners[1] + 1, corners[2] + 1});
+      }),
+      [&mesh](std::int64_t row) { return mesh.region(row); },
+      [&mesh](std::size_t region) { return mesh.triangles_of_region(region); }};
   std::string text = "$Elements\n";
-  append_counts(text, {static_cast<std::int64_t>(parts.size() + regions.size()), elements, 1, elements});
+  append_counts(text, {static_cast<std::int64_t>(edges.names.size() + triangles.names.size()), elements, 1, elements});
   rows.push_back(mesh.once(text));
-  for (const std::size_t part : parts) {
-    rows.push_back(mesh.once(block(curve, part + 1, line_type, mesh.lines_of(part))));
-    const auto label = static_cast<std::int64_t>(part) + 1;
-    rows.push_back(mesh.line_rows(
-        [&mesh, label](std::int64_t row, GlobalId id, const std::array<GlobalId, 2>& ends, std::string& to) {
-          if (mesh.line_label(row) == label)
-            append_counts(to, {id + 1, ends[0] + 1, ends[1] + 1});
-        }));
-  }
-  for (const std::size_t region : regions) {
-    rows.push_back(mesh.once(block(surface, region + 1, triangle_type, mesh.triangles_of_region(region))));
-    const auto number = static_cast<std::int64_t>(region) + 1;
-    rows.push_back(mesh.triangle_rows([&mesh, facets, number](std::int64_t row, GlobalId id,
-                                                              const std::array<GlobalId, 3>& corners, std::string& to) {
-      if (mesh.region(row) == number)
-        append_counts(to, {facets + id + 1, corners[0] + 1, corners[1] + 1, corners[2] + 1});
-    }));
-  }
+  add_blocks(mesh, edges, rows);
+  add_blocks(mesh, triangles, rows);
   rows.push_back(mesh.once("\n$EndElements\n"));
 }
 

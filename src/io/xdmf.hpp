@@ -17,7 +17,7 @@ struct XdmfContent {
   int time = 0;                 ///< time step; used only in a series
   bool has_inner_lines = false; ///< whether `lines` counts all labelled edges, which are listed in /Mesh/lines;
                                 ///< otherwise they are those of /Mesh/facets
-  bool has_regions = false; ///< whether the mesh has more than one region
+  bool has_regions = false;     ///< whether the mesh has more than one region
 };
 
 /// Returns the text for one mesh.

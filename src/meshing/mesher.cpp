@@ -239,7 +239,7 @@ void Run::report_boundary() {
     run_.log.warning("{}", warning.formatted());
   comm::run_agreed(run_.comm, [this] {
     fitting::warn_of_fine_features(stage_, run_.options.min_size.has_value(), run_.log);
-    if (run_.fit.gradation)
+    if (run_.fit.gradation && !run_.relative_size.jumps())
       fitting::warn_of_lowered_growth(scheme_.steep(), *run_.fit.gradation, run_.log);
     fitting::warn_of_steep_sizes(stage_, run_.given_boundary, run_.lattice, run_.log);
     if (!boundary_.fixed().empty())

@@ -61,6 +61,8 @@ BoundarySites with_both_sides(const BoundarySites& boundary) {
     const auto corner = std::lower_bound(corners.begin(), corners.end(), std::pair(place, LocalIndex{0}), before);
     if (corner != corners.end() && corner->first == place) {
       const LocalIndex own = corner->second, last = boundary.sites[static_cast<std::size_t>(own)].previous;
+      for (const Arm& arm : arms)
+        sites.sites[static_cast<std::size_t>(arm.out)].corner = true; // between two curves that meet on the boundary
       add(boundary.chord(own).b, own, -1);
       add(boundary.chord(last).a, -1, last);
     }

@@ -357,13 +357,14 @@ io::Metadata describe(const meshing::MeshResult& result, const Origin& origin, c
                         {"smallest_size", sizes.smallest},
                         {"largest_size", sizes.largest},
                         {"complete", std::int64_t{is_complete(result)}}};
-  return with_inner_edges({joined({format_attributes(), made, place_attributes(origin),
-                              mesh_attributes(result.mesh, result.triangulations + 1), result_attributes(result)}),
-                      {},
-                      {history_group(result.history), quality_group(result.quality), checks_group(result.checks),
-                       bad_triangles_group(result.quality), tags_group(origin, result.loops),
-                       sharp_corners_group(result.features.sharp_corners), rings_group(origin, result.features.loops)}},
-                     origin);
+  return with_inner_edges(
+      {joined({format_attributes(), made, place_attributes(origin),
+               mesh_attributes(result.mesh, result.triangulations + 1), result_attributes(result)}),
+       {},
+       {history_group(result.history), quality_group(result.quality), checks_group(result.checks),
+        bad_triangles_group(result.quality), tags_group(origin, result.loops),
+        sharp_corners_group(result.features.sharp_corners), rings_group(origin, result.features.loops)}},
+      origin);
 }
 
 } // namespace trime::record

@@ -67,6 +67,7 @@ public:
                double gradation, const Images& images);
   /// Returns the size at p. An invalid size of the field is returned unchanged.
   double size(geometry::Vec2 p) const override;
+  bool jumps() const override { return field_.jumps(); }
 
 private:
   struct Source {

@@ -15,21 +15,32 @@ using geometry::Vec2;
 
 constexpr double longest_turn = pi / 180;
 
-void add_piece(const Piece& piece, const geometry::Lattice& lattice, std::vector<Segment>& outline) {
+// [longer side of the container] Sites lie so near to the border on which they were placed.
+constexpr double border_width = 1e-9;
+
+/// The border of a region.
+struct Outline {
+  std::vector<Segment> segments;
+  double deviation = 0; ///< largest distance of an arc from its segments
+};
+
+void add_piece(const Piece& piece, const geometry::Lattice& lattice, Outline& outline) {
   const double length = piece.length();
   const int parts = piece.circular ? static_cast<int>(std::ceil(std::fabs(piece.sweep) / longest_turn)) : 1;
   Vec2 at = piece.start;
   for (int k = 1; k <= parts; ++k) {
     const Vec2 next = k == parts ? piece.end : lattice.snap(piece.point(length * k / parts));
     if (next != at)
-      outline.push_back({at, next});
+      outline.segments.push_back({at, next});
     at = next;
   }
+  if (piece.circular)
+    outline.deviation = std::fmax(outline.deviation, piece.radius * (1 - sin_cos(0.5 * longest_turn).cos));
 }
 
-std::vector<Segment> outline_of(int region, const geometry::Domain& domain) {
+Outline outline_of(int region, const geometry::Domain& domain) {
   const geometry::Lattice& lattice = domain.frame().lattice();
-  std::vector<Segment> outline;
+  Outline outline;
   for (const geometry::Loop& loop : domain.boundary().loops)
     for (const Piece& piece : loop.pieces)
       if (piece.region == region)
@@ -45,14 +56,18 @@ std::vector<Segment> outline_of(int region, const geometry::Domain& domain) {
 
 RegionSize::RegionSize(const SizeField& field, const geometry::Domain& domain, std::vector<RegionBound> bounds)
     : field_(field), lattice_(domain.frame().lattice()) {
+  const geometry::Box& container = domain.frame().container();
+  const double width = border_width * std::fmax(container.width(), container.height());
   for (const RegionBound& bound : bounds) {
-    std::vector<Segment> outline = outline_of(bound.region, domain);
-    if (outline.empty())
+    Outline outline = outline_of(bound.region, domain);
+    if (outline.segments.empty())
       continue;
+    const double border = width + outline.deviation;
     geometry::Box box;
-    for (const Segment& segment : outline)
-      box.include(segment.a);
-    bounded_.push_back({box, geometry::SegmentGrid(std::move(outline)), bound.size});
+    for (const Segment& segment : outline.segments)
+      for (const Vec2 corner : {segment.a - Vec2{border, border}, segment.a + Vec2{border, border}})
+        box.include(corner);
+    bounded_.push_back({box, geometry::SegmentGrid(std::move(outline.segments)), bound.size, border});
   }
 }
 

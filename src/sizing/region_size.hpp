@@ -18,7 +18,8 @@ struct RegionBound {
 };
 
 /// @brief The size of a field, but at most the bound of the region in which a place lies. It jumps at the border of the
-/// region; the mesher then limits its growth, see SteepSizes. Arcs count as polygons with sides of at most one degree.
+/// region, which has the smaller size; the mesher then limits its growth, see SteepSizes. Arcs count as polygons with
+/// sides of at most one degree.
 class RegionSize final : public SizeField {
 public:
   /// @pre `field` outlives this object
@@ -26,6 +27,7 @@ public:
   RegionSize(const SizeField& field, const geometry::Domain& domain, std::vector<RegionBound> bounds);
   /// Returns the size at p. An invalid size of the field is returned unchanged. Cost: one inside test for each bound.
   double size(geometry::Vec2 p) const override;
+  bool jumps() const override { return true; }
   std::size_t memory_bytes() const override;
 
 private:
@@ -33,6 +35,7 @@ private:
     geometry::Box box;
     geometry::SegmentGrid outline;
     double size;
+    double border; ///< places outside, but within this distance, belong to the region
   };
   const SizeField& field_;
   geometry::Lattice lattice_;

@@ -104,7 +104,7 @@ class Expected:
             self.parts |= {name.decode(): int(label) for name, label in zip(table[name], table["label"])}
 
     def regions_with_triangles(self):
-        """As parts_with_edges."""
+        """Returns the regions that MSH files have."""
         return {name: number for name, number in self.regions.items() if number in self.region}
 
     def rim_rows(self):

@@ -312,8 +312,9 @@ class Formats(unittest.TestCase):
                 self.assertEqual(len(marked), 3 * len(corners))
                 opposite = np.array([[1, 2], [0, 2], [0, 1]])  # corners of each side
                 sides = corners[marked[:, 0][:, None], opposite[marked[:, 1]]]
-                on_rim = marked[:, 2] > 0
-                self.assertEqual(rows(sides[on_rim], marked[on_rim, 2]), rows(np.sort(expected.edges), expected.labels))
+                has_label = marked[:, 2] > 0
+                found = set(rows(sides[has_label], marked[has_label, 2]))  # edges inside have two triangles
+                self.assertEqual(sorted(found), rows(np.sort(expected.edges), expected.labels))
                 regions = ElementTree.parse(path.with_suffix(".attr0.xml"))
                 self.assertEqual([float(value.get("value")) for value in regions.iter("value")],
                                  expected.region.tolist())
@@ -555,6 +556,41 @@ class Formats(unittest.TestCase):
         for words in (r"island +hole +1 ", r"open_sea|bay +outer", "1 open_sea, 2 bay, 3 island",
                       r"all \d+ checks passed", r"mesh hash +[0-9a-f]{16}", "smallest angle"):
             self.assertRegex(done.stdout, words)
+
+    def with_table_of_regions(self):
+        """The path of a copy of the mesh with regions that has the table of the regions."""
+        path = self.work / "table.h5"
+        shutil.copyfile(self.work / "layers.h5", path)
+        with h5py.File(path, "r+") as file:
+            about, region = file["trime_mpi"], file["VTKHDF/CellData/region"][:]
+            if "regions" not in about:
+                names = about["tags/region_name"]
+                about.create_group("regions")
+                columns = {"region_id": np.arange(1, 5, dtype=np.int32), "region_name": names[:].astype(names.dtype),
+                           "triangles": np.bincount(region, minlength=5)[1:], "area": np.array([0, 0.25, 0.125, 0.5]),
+                           "given_area": np.array([0, 0.25, 0.125, 0.5])}
+                for name, values in columns.items():
+                    about["regions"].create_dataset(name, data=values)
+        return path
+
+    def test_the_table_of_regions(self):
+        """`info` prints it, and the refined mesh has four times as many triangles in the same areas."""
+        path, fine = self.with_table_of_regions(), self.work / "fine_table.h5"
+        done = run("refine", path, fine, ranks=2)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        expected = self.expected["layers"]
+        for file, factor in ((path, 1), (fine, 4)):
+            text = run("info", file).stdout
+            for name, number in expected.regions.items():
+                count = factor * int((expected.region == number).sum())
+                self.assertRegex(text, rf"\n{name} +{number} +{count}  [0-9.]+\n")
+        with h5py.File(fine) as file:
+            areas = file["trime_mpi/regions/area"][:]
+            corners = file["Mesh/mesh/geometry"][:][file["Mesh/mesh/topology"][:]]
+            sides = corners[:, 1:] - corners[:, :1]
+            each = (sides[:, 0, 0] * sides[:, 1, 1] - sides[:, 0, 1] * sides[:, 1, 0]) / 2
+            found = np.bincount(file["VTKHDF/CellData/region"], each, minlength=5)[1:]
+            np.testing.assert_allclose(areas, found, rtol=1e-12, atol=1e-15)
 
     def test_info_of_regions(self):
         done = run("info", self.work / "layers.h5")

@@ -24,6 +24,9 @@ public:
   /// Returns an upper bound on the growth of the size per unit of distance; infinity if it is not known. The mesher
   /// does not look for steep places of a size that is known to be gentle.
   virtual double largest_growth() const { return std::numeric_limits<double>::infinity(); }
+  /// Returns whether the size jumps because the user asked for different sizes side by side. Then the mesher limits its
+  /// growth without a warning.
+  virtual bool jumps() const { return false; }
   /// Returns the number of bytes of the field's tables, for the report.
   virtual std::size_t memory_bytes() const { return 0; }
 };

@@ -112,6 +112,13 @@ def draw_facets(axes, mesh, width=0.6, colour=INK, rows=slice(None)):
     axes.imshow(image, origin="lower", extent=canvas.extent, interpolation="nearest", zorder=2)
 
 
+def draw_inner_edges(axes, mesh, edges, width, colour):
+    """Draws edges inside, given by their ends [k,2], as lines; nothing if there are too many."""
+    if len(edges) <= LINES_ABOVE:
+        axes.add_collection(LineCollection(mesh.edge_ends(edges), colors=[colour], linewidths=width, capstyle="round",
+                                           rasterized=len(edges) > 20_000))
+
+
 def draw_values(axes, mesh, value, colours, limits, norm=None):
     """Draws all triangles, coloured by value [M]."""
     norm = norm or Normalize(*limits)

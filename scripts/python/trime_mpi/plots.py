@@ -159,7 +159,8 @@ def numbers_in(values):
 
 
 def parts_figure(mesh, name):
-    """Draws the boundary, coloured by the part of the shape that it follows, with regions, fixed points and corners."""
+    """Draws the boundary, coloured by the part of the shape that it follows, with regions, curves, interfaces, fixed
+    points and corners."""
     figure, axes, tall = drawing.panel_figure(mesh)
     numbers = numbers_in(mesh.region)
     tints = [drawing.LAND] if len(numbers) == 1 else [
@@ -173,6 +174,11 @@ def parts_figure(mesh, name):
         drawing.draw_facets(axes, mesh, 2.2, colour, boundary.rows)
         entries.append((Line2D([], [], color=colour, linewidth=3),
                         f"{shortened(boundary.name)}: {len(boundary.rows):,} edges"))
+    for number, inner in enumerate([*mesh.interfaces.values(), *mesh.curves.values()], len(order)):
+        colour = drawing.name_colour(number)
+        drawing.draw_inner_edges(axes, mesh, inner.edges, 1.6, colour)
+        entries.append((Line2D([], [], color=colour, linewidth=2),
+                        f"{shortened(inner.name)}: {len(inner.rows):,} edges"))
     left_out = len(entries) - MOST_NAMES
     entries = entries[:MOST_NAMES]
     corners = mesh.points[mesh.fixed]

@@ -243,7 +243,11 @@ class Mesh:
 
     def facet_ends(self, chosen=slice(None)):
         """The coordinates of the ends of facets [B,2,2], with the same rule for periodic containers."""
-        return brought_together(self.points[self.facets[chosen]], self.periods)
+        return self.edge_ends(self.facets[chosen])
+
+    def edge_ends(self, edges):
+        """The coordinates of the ends of edges [k,2], such as curve_edges, with the same rule."""
+        return brought_together(self.points[edges], self.periods)
 
     def ranks(self):
         """The rank of each point [N]. A triangle belongs to the rank of its first vertex."""
