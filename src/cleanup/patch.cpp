@@ -56,6 +56,17 @@ std::optional<geometry::Segment> Patch::entered_disc(Vec2 p) const {
   return std::nullopt;
 }
 
+bool Patch::is_behind_wall(Vec2 p, Vec2 q) const {
+  const auto parts = [](Vec2 a, Vec2 b, Vec2 u, Vec2 w) {
+    const double of_u = geometry::cross(b - a, u - a), of_w = geometry::cross(b - a, w - a);
+    return (of_u < 0 && of_w > 0) || (of_u > 0 && of_w < 0);
+  };
+  return std::any_of(walls.begin(), walls.end(), [&](const auto& wall) {
+    const Vec2 u = mesh.position(wall.first), w = mesh.position(wall.second);
+    return parts(p, q, u, w) && parts(u, w, p, q);
+  });
+}
+
 bool Patch::is_surely_below(double limit, const Corners& corners) const {
   return mesh::is_surely_below(limit, mesh.position(corners[0]), mesh.position(corners[1]), mesh.position(corners[2]));
 }

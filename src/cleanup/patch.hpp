@@ -86,6 +86,12 @@ struct Patch {
   bool is_wall(LocalIndex u, LocalIndex w) const {
     return std::find(walls.begin(), walls.end(), std::pair(std::min(u, w), std::max(u, w))) != walls.end();
   }
+  /// Returns whether a wall lies between two places.
+  bool is_behind_wall(geometry::Vec2 p, geometry::Vec2 q) const;
+  /// Returns whether one of the edges of a triangle is a wall.
+  bool has_wall(const Corners& corners) const {
+    return is_wall(corners[0], corners[1]) || is_wall(corners[1], corners[2]) || is_wall(corners[2], corners[0]);
+  }
   geometry::Segment chord(LocalIndex v) const { return {mesh.position(v), mesh.position(boundary[at(v)].next)}; }
   /// Returns the number of boundary edges and chords of inner curves that are not edges of the triangulation.
   LocalIndex missing_chords() const;

@@ -69,6 +69,8 @@ void PatchScore::list_near(const Patch& now, const BadPlace& place) {
     if (!is_within(squared, obtuse_weight_ > 0 ? Rules::score_reach_if_obtuse : Rules::score_reach))
       continue;
     in_score_[at(v)] = now.role[at(v)] >= VertexRole::scored;
+    if (now.is_behind_wall(place.middle, now.mesh.position(v)))
+      continue; // sites on walls do not move, so the other side has nothing to do with this one
     if (now.role[at(v)] != VertexRole::free ||
         !is_within(squared, obtuse_weight_ > 0 ? Rules::near_reach_if_obtuse : Rules::near_reach))
       continue;
@@ -184,7 +186,8 @@ bool PatchContest::hold(Patch& now, const Corners& worst, const PatchBudget& bud
   const bool is_first = turn == Turn::before_moves;
   is_against_obtuse_ = budget.obtuse_weight > 0;
   is_thorough_ =
-      is_against_obtuse_ || (!is_first && place.alpha > (budget.is_again ? budget.again_alpha : Rules::very_bad_alpha));
+      is_against_obtuse_ || now.has_wall(worst) ||
+      (!is_first && place.alpha > (budget.is_again ? budget.again_alpha : Rules::very_bad_alpha));
   mover_.set_thorough(is_thorough_);
   mover_.set_against_obtuse(is_against_obtuse_);
   chords_.allow(place.alpha >= Rules::bend_alpha ? Rules::bent_at_last : Rules::bent_at_first);

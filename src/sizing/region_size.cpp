@@ -77,7 +77,7 @@ double RegionSize::size(Vec2 p) const {
     return size;
   for (const Bounded& one : bounded_)
     if (one.size < size && p.x >= one.box.min.x && p.x <= one.box.max.x && p.y >= one.box.min.y &&
-        p.y <= one.box.max.y && one.outline.inside(lattice_.snap(p)))
+        p.y <= one.box.max.y && (one.outline.inside(lattice_.snap(p)) || one.outline.nearest(p, one.border)))
       size = one.size;
   return size;
 }
