@@ -31,7 +31,7 @@ std::string normalizing_contour(const Settings& settings, const std::string& sec
   return with;
 }
 
-/// What sections with a file have in common.
+/// Reads the keys that all sections with a file have.
 template <class FileOptions>
 void read_file_of(const Settings& settings, const std::string& section, const fs::path& directory, FileOptions& read) {
   read.file_is_relative = fs::path(settings.text(section, "file")).is_relative();

@@ -21,7 +21,7 @@ struct Range {
 
 /// One key of a config. A list of words is separated by blanks.
 struct Option {
-  const char* section; ///< section of the key; "shape.NAME" for keys of parts, likewise for regions and curves
+  const char* section; ///< section of the key; "shape.NAME", "region.NAME" or "curve.NAME" for keys of those
   const char* key;
   const char* part_type = ""; ///< for keys of parts: the type of part that has the key; empty: all types
   OptionKind kind = OptionKind::number;
@@ -41,8 +41,8 @@ inline constexpr std::string_view curve_section = "curve.NAME";
 
 std::span<const Option> option_table();
 
-/// Returns the section in the table: "shape.NAME" for "shape.hole", likewise for regions and curves, otherwise the
-/// section itself.
+/// Returns the section in the table: "shape.NAME" for "shape.hole", "region.NAME" for "region.ore", "curve.NAME" for
+/// "curve.fault", otherwise the section itself.
 std::string_view table_section(std::string_view section);
 /// Returns the option with this section and key; null if there is no such key.
 const Option* find_option(std::string_view section, std::string_view key);

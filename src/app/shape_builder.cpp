@@ -23,7 +23,7 @@ namespace {
 
 // [h] Where nothing is simplified, rings that touch are separated by this: triangles around the gap are about as small.
 constexpr double kept_gap = 0.1;
-// Pairs of regions that share an area, of which a warning each tells.
+// [warnings] Each one names a pair of regions that share an area.
 constexpr std::size_t most_overlaps = 3;
 // [h] Faces between regions that are narrower belong to the region next to them. Not measured.
 constexpr double narrowest_face = 0.1;

@@ -185,9 +185,8 @@ bool PatchContest::hold(Patch& now, const Corners& worst, const PatchBudget& bud
   const BadPlace place = place_of(now, worst);
   const bool is_first = turn == Turn::before_moves;
   is_against_obtuse_ = budget.obtuse_weight > 0;
-  is_thorough_ =
-      is_against_obtuse_ || now.has_wall(worst) ||
-      (!is_first && place.alpha > (budget.is_again ? budget.again_alpha : Rules::very_bad_alpha));
+  is_thorough_ = is_against_obtuse_ || now.has_wall(worst) ||
+                 (!is_first && place.alpha > (budget.is_again ? budget.again_alpha : Rules::very_bad_alpha));
   mover_.set_thorough(is_thorough_);
   mover_.set_against_obtuse(is_against_obtuse_);
   chords_.allow(place.alpha >= Rules::bend_alpha ? Rules::bent_at_last : Rules::bent_at_first);

@@ -48,7 +48,7 @@ private:
                                                   // inside follow those of the boundary
   std::vector<geometry::SegmentGrid> grids_;      // by region from 1, without empty ones
   std::vector<int> regions_of_grids_;
-  geometry::BoxTree boxes_; // of the grids
+  geometry::BoxTree boxes_; // one for each grid
 };
 
 /// Returns the lattice point next to the centroid of a triangle.

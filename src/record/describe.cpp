@@ -275,6 +275,20 @@ mesh::Checks checks_of(const io::Metadata& metadata) {
 
 namespace {
 
+/// The table of the regions: what their triangles cover, and what they had in the shape.
+io::MetadataGroup regions_group(const std::vector<meshing::RegionSummary>& regions,
+                                const std::vector<std::string>& names) {
+  std::vector<std::int32_t> ids(regions.size());
+  std::iota(ids.begin(), ids.end(), 1);
+  return {"regions",
+          {},
+          {{"region_id", ids},
+           {"region_name", names},
+           column<std::int64_t>("triangles", regions, &meshing::RegionSummary::triangles),
+           column<double>("area", regions, &meshing::RegionSummary::area),
+           column<double>("given_area", regions, &meshing::RegionSummary::given_area)}};
+}
+
 /// The table of the interfaces: columns pair_id, pair_name, left, right and label.
 io::MetadataGroup interfaces_group(const Origin& origin) {
   const geometry::Regions& regions = origin.regions;
@@ -357,7 +371,7 @@ io::Metadata describe(const meshing::MeshResult& result, const Origin& origin, c
                         {"smallest_size", sizes.smallest},
                         {"largest_size", sizes.largest},
                         {"complete", std::int64_t{is_complete(result)}}};
-  return with_inner_edges(
+  io::Metadata metadata = with_inner_edges(
       {joined({format_attributes(), made, place_attributes(origin),
                mesh_attributes(result.mesh, result.triangulations + 1), result_attributes(result)}),
        {},
@@ -365,6 +379,9 @@ io::Metadata describe(const meshing::MeshResult& result, const Origin& origin, c
         bad_triangles_group(result.quality), tags_group(origin, result.loops),
         sharp_corners_group(result.features.sharp_corners), rings_group(origin, result.features.loops)}},
       origin);
+  if (!result.regions.empty())
+    metadata.groups.push_back(regions_group(result.regions, origin.regions.names));
+  return metadata;
 }
 
 } // namespace trime::record

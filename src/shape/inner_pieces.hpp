@@ -14,7 +14,7 @@
 
 namespace trime::shape {
 
-/// What lies on one side of a piece.
+/// Describes one side of a piece.
 struct Side {
   bool is_region;    ///< whether the side lies in the shape
   bool in_container; ///< always true unless the container is periodic

@@ -98,9 +98,10 @@ void RegionSides::report_empty(std::size_t region, double least, const std::stri
   for (const auto& [pair, area] : overlaps_)
     if (pair[1] == region && 0.5 * area.twice > least)
       hiding += fmt::format("{}'{}'", hiding.empty() ? "" : ", ", name(pair[0]));
-  throw GeometryError(fmt::format("{}has no area of its own: it lies in the regions before it ({}); put its section "
-                                  "before theirs, since the first region that contains a place has it",
-                                  head, hiding));
+  throw GeometryError(
+      fmt::format("{}has no area that is left to it: it lies in the regions before it ({}); put its section "
+                  "before theirs, since the first region that contains a place has it",
+                  head, hiding));
 }
 
 geometry::Regions RegionSides::regions(std::span<const geometry::InnerArc> arcs, double least,

@@ -58,7 +58,7 @@ private:
   std::vector<double> areas_, given_, outside_;      ///< by region: of what it has, of the expression, and outside
   geometry::Vec2 place_of_rest_;                     ///< on the boundary of the rest
   std::map<std::array<std::size_t, 2>, Area> overlaps_;
-  std::vector<std::size_t> candidates_, holders_; ///< of the present side
+  std::vector<std::size_t> candidates_, holders_; ///< regions at the present side
 };
 
 } // namespace trime::shape

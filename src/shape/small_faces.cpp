@@ -103,7 +103,8 @@ private:
   std::vector<Walk> walks_;
 };
 
-/// The label across the longest part of the border; -1 if there is only the outside. Of equally long ones the lowest.
+/// Returns the label across the longest part of the border, the lowest one of equally long parts; -1 if there is only
+/// the outside.
 int widest_neighbour(const Faces& faces, const Faces::Walk& walk, const std::vector<LabelledPiece>& pieces) {
   std::map<int, double> lengths;
   faces.for_each_side(walk, [&](Side side) { lengths[faces.label(side ^ 1)] += pieces[side / 2].piece.length(); });

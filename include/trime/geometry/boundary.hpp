@@ -129,7 +129,7 @@ struct Regions {
   std::vector<double> areas{};             ///< area of each region in the shape as it was given
   std::vector<double> outside{};           ///< area of each region as it was given that lies outside of the shape
   AbsorbedFaces absorbed{};
-  std::vector<RegionOverlap> overlaps{}; ///< those that are more than rounding errors, in the order of the regions
+  std::vector<RegionOverlap> overlaps{}; ///< overlaps that are larger than rounding errors, in the order of the regions
   /// Returns whether the shape is divided.
   bool any() const { return names.size() > 1; }
   /// Returns the index in `pairs` of two regions in any order; -1 if they share no interface. Cost: O(log pairs).

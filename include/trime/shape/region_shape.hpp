@@ -92,11 +92,11 @@ struct NamedRegion {
   int part = -1; ///< index into Division::parts of the part that is the region, instead of an expression; -1: none
 };
 
-/// @brief How a shape is divided into regions. A place belongs to the first region that contains it; a place in none
-/// of them belongs to the rest.
+/// @brief Says how a shape is divided into regions. A place belongs to the first region that contains it; a place in
+/// none of them belongs to the rest.
 struct Division {
   std::vector<NamedRegion> regions{};
-  std::vector<Part> parts{};  ///< regions that are no expressions, such as polygons of a map
+  std::vector<Part> parts{};  ///< regions that a part gives instead of an expression, such as polygons of a map
   std::string rest{};         ///< name of the rest; empty: the text of the geometry
   bool cover_all = false;     ///< whether a rest with an area is an error
   double least_perimeter = 0; ///< faces with a shorter perimeter become part of the region next to them
