@@ -5,6 +5,7 @@
 #include "boundary/loop_fates.hpp"
 #include "boundary/rules.hpp"
 #include "core/angle.hpp"
+#include "polygon/both_sides.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
@@ -184,10 +185,12 @@ FeatureReport report_features(const BoundarySites& boundary, std::span<const siz
   report.size_limits = std::ssize(limits);
   for (const sizing::SizeLimit& limit : limits)
     report.lowest_size_share = std::fmin(report.lowest_size_share, limit.size / asked.size(limit.place));
-  for (std::size_t k = 0; k < boundary.sites.size(); ++k)
-    if (boundary.sites[k].corner)
-      if (const double angle = interior_angle(boundary, static_cast<LocalIndex>(k)); angle < FeatureReport::sharp_angle)
-        report.sharp_corners.push_back({boundary.sites[k].position, angle});
+  const BoundarySites sides = boundary.inner.empty() ? BoundarySites() : polygon::with_both_sides(boundary);
+  const BoundarySites& all = boundary.inner.empty() ? boundary : sides; // angles at curves inside, too
+  for (std::size_t k = 0; k < all.sites.size(); ++k)
+    if (all.sites[k].corner)
+      if (const double angle = interior_angle(all, static_cast<LocalIndex>(k)); angle < FeatureReport::sharp_angle)
+        report.sharp_corners.push_back({all.sites[k].position, angle});
   std::stable_sort(report.sharp_corners.begin(), report.sharp_corners.end(),
                    [](const SharpCorner& a, const SharpCorner& b) { return a.degrees < b.degrees; });
   return report;
