@@ -87,6 +87,7 @@ polygon::InnerChords BoundaryRefiner::inner_chords() const {
     inner.sites.push_back(position);
     inner.corner.push_back(corner);
   }
+  inner.joined_nodes = curves_->joined_nodes();
   inner.sort_ends();
   return inner;
 }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "generalise/thin_inner_curves.hpp"
 
+#include "generalise/close_nodes.hpp"
 #include "generalise/rules.hpp"
 #include "generalise/vertex_tree.hpp"
+#include "geometry/inner_wedges.hpp"
 #include "trime/core/types.hpp"
 
 #include <algorithm>
@@ -134,7 +136,7 @@ geometry::InnerCurves thin_inner_curves(const geometry::InnerCurves& curves, con
                                         std::span<const Vec2> corners) {
   const geometry::Boundary all = all_curves(curves, boundary);
   VertexTree tree(all, lattice, {});
-  std::map<std::pair<double, double>, LocalIndex> nodes; // one vertex for all curves that meet in a node
+  VerticesByPlace nodes; // one vertex for all curves that meet in a node
   std::vector<std::vector<LocalIndex>> vertices;
   for (std::size_t loop = 0; loop < all.loops.size(); ++loop) {
     vertices.push_back(tree.starts_of_loop(loop));
@@ -157,6 +159,12 @@ geometry::InnerCurves thin_inner_curves(const geometry::InnerCurves& curves, con
   geometry::InnerCurves thinned{{}, curves.names};
   for (std::size_t k = 0; k < curves.arcs.size(); ++k)
     thinned.arcs.push_back(ArcThinner(curves.arcs[k], vertices[boundary.loops.size() + k], size, tree, corners).run());
+  LocalIndex rim_vertices = 0;
+  for (std::size_t loop = 0; loop < boundary.loops.size(); ++loop)
+    for (const LocalIndex vertex : vertices[loop])
+      rim_vertices = std::max(rim_vertices, vertex + 1);
+  thinned.joined_nodes = join_close_nodes(thinned.arcs, nodes, rim_vertices, size, corners, tree);
+  geometry::set_wedges(thinned.arcs, boundary);
   return thinned;
 }
 

@@ -21,12 +21,14 @@ constexpr std::size_t fan = 4;       // boxes in a box
 
 /// A triangle, counter-clockwise or without area.
 struct ClosedTriangle {
-  std::array<LocalIndex, 3> vertices;
+  std::array<LocalIndex, 3> vertices; // -1: all vertices at the corners are left out
   std::array<Vec2, 3> at;
   Box box;
 
   bool has(LocalIndex vertex) const { return vertex == vertices[0] || vertex == vertices[1] || vertex == vertices[2]; }
   bool holds(Vec2 p) const {
+    if (vertices[0] < 0 && (p == at[0] || p == at[1] || p == at[2]))
+      return false;
     return box.contains(p) && geometry::orient2d(at[0], at[1], p) >= 0 && geometry::orient2d(at[1], at[2], p) >= 0 &&
            geometry::orient2d(at[2], at[0], p) >= 0;
   }
@@ -153,7 +155,14 @@ bool VertexTree::holds_any(std::size_t level, std::size_t node, const Triangle& 
 }
 
 bool VertexTree::is_empty(std::array<LocalIndex, 3> corners) const {
-  std::array<Vec2, 3> places{points_[at(corners[0])], points_[at(corners[1])], points_[at(corners[2])]};
+  return is_empty(corners, {points_[at(corners[0])], points_[at(corners[1])], points_[at(corners[2])]});
+}
+
+bool VertexTree::is_empty_at(std::array<Vec2, 3> corners) const {
+  return is_empty({-1, -1, -1}, corners);
+}
+
+bool VertexTree::is_empty(std::array<LocalIndex, 3> corners, std::array<Vec2, 3> places) const {
   if (geometry::orient2d(places[0], places[1], places[2]) < 0)
     std::swap(places[0], places[1]);
   ClosedTriangle triangle{corners, places, {}};

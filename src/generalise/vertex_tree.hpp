@@ -32,6 +32,8 @@ public:
   /// Returns whether the closed triangle contains no remaining vertex except its corners. Exact. Cost: O(log n) for a
   /// small triangle.
   bool is_empty(std::array<LocalIndex, 3> corners) const;
+  /// Returns whether the closed triangle contains no remaining vertex except at its corners. Exact.
+  bool is_empty_at(std::array<geometry::Vec2, 3> corners) const;
   void remove(LocalIndex vertex) { is_left_[at(vertex)] = 0; }
   void restore(LocalIndex vertex) { is_left_[at(vertex)] = 1; }
 
@@ -44,6 +46,7 @@ private:
   void add_loop(const geometry::Loop& loop, const geometry::Lattice& lattice);
   void sort_runs();
   void build_levels();
+  bool is_empty(std::array<LocalIndex, 3> corners, std::array<geometry::Vec2, 3> places) const;
   template <class Triangle>
   bool holds_any(std::size_t level, std::size_t node, const Triangle& triangle) const;
 

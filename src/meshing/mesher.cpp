@@ -238,6 +238,11 @@ void Run::report_boundary() {
     run_.log.warning("{}", warning.formatted());
   if (const PlacedText warning = body_warning(features_, run_.given_boundary.part_names); !warning.text().empty())
     run_.log.warning("{}", warning.formatted());
+  if (const std::int64_t joined = stage_.polygon.inner.joined_nodes; joined > 0)
+    run_.log.summary(
+        "{} place{} where curves or interfaces meet {} joined with another one, since the edge between them "
+        "is shorter than 0.1 h; keep_features = true keeps all",
+        joined, joined == 1 ? "" : "s", joined == 1 ? "is" : "are");
   comm::run_agreed(run_.comm, [this] {
     fitting::warn_of_fine_features(stage_, run_.options.min_size.has_value(), run_.log);
     if (run_.fit.gradation && !run_.relative_size.jumps())

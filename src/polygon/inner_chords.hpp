@@ -26,6 +26,7 @@ struct InnerChords {
   std::vector<InnerChord> chords;    ///< arc by arc, in the direction of each arc
   std::vector<geometry::Vec2> sites; ///< sites inside the shape, each once, in lexicographic order
   std::vector<std::uint8_t> corner;  ///< by site: whether it is a node or a corner, which must be a vertex of the mesh
+  std::int64_t joined_nodes = 0;     ///< see geometry::InnerCurves
   std::vector<LocalIndex> by_end;    ///< each chord k as 2 k (first end) and 2 k + 1 (second end), by place of that end
 
   bool empty() const { return chords.empty(); }

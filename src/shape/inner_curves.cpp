@@ -2,10 +2,9 @@
 #include "shape/inner_curves.hpp"
 
 #include "core/angle.hpp"
+#include "geometry/inner_wedges.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <map>
 #include <utility>
 
 namespace trime::shape {
@@ -14,8 +13,6 @@ namespace {
 using geometry::InnerArc;
 using geometry::Piece;
 using geometry::Vec2;
-
-constexpr double sharp_angle = pi / 3;
 
 /// Follows pieces from vertex to vertex.
 class PieceWalk {
@@ -101,33 +98,6 @@ private:
   std::vector<End> ends_;
 };
 
-/// The directions in which curves leave their nodes.
-class Directions {
-public:
-  void watch(Vec2 node) { arms_[{node.x, node.y}]; }
-  void add(Vec2 node, Vec2 direction) {
-    if (const auto found = arms_.find({node.x, node.y}); found != arms_.end())
-      found->second.push_back(direction);
-  }
-  void add_both(const Piece& piece) {
-    add(piece.start, piece.tangent(0));
-    add(piece.end, -1 * piece.tangent(piece.length()));
-  }
-  /// Returns the smallest angle between two curves at the node, or 0 if it is not below 60 degrees.
-  double wedge(Vec2 node) const {
-    const std::vector<Vec2>& arms = arms_.at({node.x, node.y});
-    double least = sharp_angle;
-    for (std::size_t k = 0; k < arms.size(); ++k)
-      for (std::size_t j = 0; j < k; ++j)
-        least =
-            std::fmin(least, std::fabs(angle_of(geometry::cross(arms[k], arms[j]), geometry::dot(arms[k], arms[j]))));
-    return least < sharp_angle ? least : 0;
-  }
-
-private:
-  std::map<std::pair<double, double>, std::vector<Vec2>> arms_;
-};
-
 } // namespace
 
 Piece reversed(Piece piece) {
@@ -143,24 +113,7 @@ Piece reversed(Piece piece) {
 std::vector<InnerArc> join_pieces(std::vector<CurvePiece> pieces, const std::vector<char>& on_boundary,
                                   const geometry::Boundary& boundary) {
   std::vector<InnerArc> arcs = PieceWalk(std::move(pieces), on_boundary).arcs();
-  Directions directions;
-  for (const InnerArc& arc : arcs)
-    if (!arc.closed)
-      for (const Vec2 node : {arc.pieces.front().start, arc.pieces.back().end})
-        directions.watch(node);
-  for (const InnerArc& arc : arcs)
-    if (!arc.closed) {
-      directions.add(arc.pieces.front().start, arc.pieces.front().tangent(0));
-      directions.add(arc.pieces.back().end, -1 * arc.pieces.back().tangent(arc.pieces.back().length()));
-    }
-  for (const geometry::Loop& loop : boundary.loops)
-    for (const Piece& piece : loop.pieces)
-      directions.add_both(piece);
-  for (InnerArc& arc : arcs)
-    if (!arc.closed) {
-      arc.start_wedge = directions.wedge(arc.pieces.front().start);
-      arc.end_wedge = directions.wedge(arc.pieces.back().end);
-    }
+  geometry::set_wedges(arcs, boundary);
   return arcs;
 }
 

@@ -103,6 +103,8 @@ struct InnerCurves {
   /// Lengths of each curve: on the boundary of the shape, where its edges belong to the boundary; and outside of the
   /// shape, where it is left out.
   std::vector<double> on_boundary{}, outside{};
+  std::int64_t joined_nodes = 0; ///< nodes that simplification has joined with others, because an edge between them was
+                                 ///< far shorter than the triangles
   bool empty() const { return arcs.empty(); }
 };
 

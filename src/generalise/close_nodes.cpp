@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "generalise/close_nodes.hpp"
+
+#include "generalise/rules.hpp"
+
+#include <algorithm>
+
+namespace trime::generalise {
+namespace {
+
+using geometry::InnerArc;
+using geometry::Piece;
+using geometry::Vec2;
+
+constexpr int most_rounds = 20; // over all arcs; nodes may come near to others
+
+class NodeJoiner {
+public:
+  NodeJoiner(std::vector<InnerArc>& arcs, const VerticesByPlace& nodes, LocalIndex rim_vertices,
+             const sizing::SizeField& size, std::span<const Vec2> kept, VertexTree& tree)
+      : arcs_(arcs), nodes_(nodes), rim_vertices_(rim_vertices), size_(size), kept_(kept), tree_(tree),
+        is_gone_(arcs.size(), 0) {
+    for (std::size_t k = 0; k < arcs.size(); ++k)
+      if (!arcs[k].closed) {
+        arms_[key(start(k))].push_back({k, false});
+        arms_[key(end(k))].push_back({k, true});
+      }
+  }
+
+  std::int64_t run() {
+    std::int64_t joined = 0;
+    for (int round = 0, before = -1; round < most_rounds && joined != before; ++round) {
+      before = static_cast<int>(joined);
+      for (std::size_t k = 0; k < arcs_.size(); ++k)
+        joined += is_short(k) && (joins(k, end(k), start(k)) || joins(k, start(k), end(k)));
+    }
+    std::size_t left = 0;
+    for (std::size_t k = 0; k < arcs_.size(); ++k)
+      if (is_gone_[k] == 0) {
+        if (left != k)
+          arcs_[left] = std::move(arcs_[k]);
+        ++left;
+      }
+    arcs_.resize(left);
+    return joined;
+  }
+
+private:
+  struct Arm {
+    std::size_t arc;
+    bool at_end; ///< the arc ends here; otherwise it begins here
+  };
+  using Key = std::pair<double, double>;
+  static Key key(Vec2 p) { return {p.x, p.y}; }
+  Vec2 start(std::size_t arc) const { return arcs_[arc].pieces.front().start; }
+  Vec2 end(std::size_t arc) const { return arcs_[arc].pieces.back().end; }
+
+  bool is_short(std::size_t k) const {
+    const InnerArc& arc = arcs_[k];
+    if (is_gone_[k] != 0 || arc.closed || arc.pieces.size() != 1 || arc.pieces[0].circular || start(k) == end(k))
+      return false;
+    return geometry::length(end(k) - start(k)) < GeneraliseRules::node_distance * sizing::checked_size(size_, start(k));
+  }
+
+  Piece& last_piece(const Arm& arm) {
+    return arm.at_end ? arcs_[arm.arc].pieces.back() : arcs_[arm.arc].pieces.front();
+  }
+
+  /// Does an arc at the node lead to this vertex first?
+  bool has_edge(Vec2 node, Vec2 vertex) {
+    return std::ranges::any_of(arms_.at(key(node)), [&](const Arm& arm) {
+      const Piece& piece = last_piece(arm);
+      return (arm.at_end ? piece.start : piece.end) == vertex;
+    });
+  }
+
+  /// Moves all arcs at `from` to `to` if they may move. @param edge the arc between the two
+  bool joins(std::size_t edge, Vec2 from, Vec2 to) {
+    std::vector<Arm>& arms = arms_.at(key(from));
+    const LocalIndex vertex = nodes_.at(key(from));
+    if (arms.size() < 3 || vertex < rim_vertices_ ||
+        std::binary_search(kept_.begin(), kept_.end(), from, geometry::lexicographically_less))
+      return false;
+    for (const Arm& arm : arms) {
+      if (arm.arc == edge)
+        continue;
+      const Piece& piece = last_piece(arm);
+      const Vec2 next = arm.at_end ? piece.start : piece.end;
+      if (piece.circular || start(arm.arc) == end(arm.arc) || (arm.at_end ? start(arm.arc) : end(arm.arc)) == to ||
+          next == to || has_edge(to, next) || !tree_.is_empty_at({from, to, next}))
+        return false;
+    }
+    for (const Arm& arm : arms)
+      if (arm.arc != edge) {
+        (arm.at_end ? last_piece(arm).end : last_piece(arm).start) = to;
+        arms_.at(key(to)).push_back(arm);
+      }
+    arms.clear();
+    std::erase_if(arms_.at(key(to)), [edge](const Arm& arm) { return arm.arc == edge; });
+    tree_.remove(vertex);
+    is_gone_[edge] = 1;
+    return true;
+  }
+
+  std::vector<InnerArc>& arcs_;
+  const VerticesByPlace& nodes_;
+  const LocalIndex rim_vertices_;
+  const sizing::SizeField& size_;
+  std::span<const Vec2> kept_;
+  VertexTree& tree_;
+  std::vector<char> is_gone_; // by arc
+  std::map<Key, std::vector<Arm>> arms_;
+};
+
+} // namespace
+
+std::int64_t join_close_nodes(std::vector<InnerArc>& arcs, const VerticesByPlace& nodes, LocalIndex rim_vertices,
+                              const sizing::SizeField& size, std::span<const Vec2> kept, VertexTree& tree) {
+  return NodeJoiner(arcs, nodes, rim_vertices, size, kept, tree).run();
+}
+
+} // namespace trime::generalise
