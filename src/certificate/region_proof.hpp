@@ -22,10 +22,10 @@ struct RegionProof {
 };
 
 /// @brief Makes three checks. The exact area of the triangles of each region is that of the polygon of its chords. The
-/// triangles on both sides of each interface belong to its two regions, and other edges at such vertices have one region
-/// on both sides. The arrays have as many triangles of each region as the stars. Since no triangle overlaps another (see
-/// certify), equal areas mean that the triangles of a region fill its outline. Memory: 40 bytes per region on each
-/// thread. Cost: O(points + chords log chords).
+/// triangles on both sides of each interface belong to its two regions, and other edges at such vertices have one
+/// region on both sides. The arrays have as many triangles of each region as the stars. Since no triangle overlaps
+/// another (see certify), equal areas mean that the triangles of a region fill its outline. Memory: 40 bytes per region
+/// on each thread. Cost: O(points + chords log chords).
 /// @return no checks if there is only one region
 /// @note Collective.
 RegionProof prove_regions(const sites::StageView& view, const decomposition::Numbering& numbering,

@@ -16,10 +16,8 @@ constexpr int most_rounds = 20; // over all arcs; nodes may come near to others
 
 class NodeJoiner {
 public:
-  NodeJoiner(std::vector<InnerArc>& arcs, const VerticesByPlace& nodes, LocalIndex rim_vertices,
-             const sizing::SizeField& size, std::span<const Vec2> kept, VertexTree& tree)
-      : arcs_(arcs), nodes_(nodes), rim_vertices_(rim_vertices), size_(size), kept_(kept), tree_(tree),
-        is_gone_(arcs.size(), 0) {
+  NodeJoiner(std::vector<InnerArc>& arcs, const Nodes& nodes, const sizing::SizeField& size, VertexTree& tree)
+      : arcs_(arcs), nodes_(nodes), size_(size), tree_(tree), is_gone_(arcs.size(), 0) {
     for (std::size_t k = 0; k < arcs.size(); ++k)
       if (!arcs[k].closed) {
         arms_[key(start(k))].push_back({k, false});
@@ -77,9 +75,9 @@ private:
   /// Moves all arcs at `from` to `to` if they may move. @param edge the arc between the two
   bool joins(std::size_t edge, Vec2 from, Vec2 to) {
     std::vector<Arm>& arms = arms_.at(key(from));
-    const LocalIndex vertex = nodes_.at(key(from));
-    if (arms.size() < 3 || vertex < rim_vertices_ ||
-        std::binary_search(kept_.begin(), kept_.end(), from, geometry::lexicographically_less))
+    const LocalIndex vertex = nodes_.vertices.at(key(from));
+    if (arms.size() < 3 || vertex < nodes_.rim_vertices ||
+        std::binary_search(nodes_.kept.begin(), nodes_.kept.end(), from, geometry::lexicographically_less))
       return false;
     for (const Arm& arm : arms) {
       if (arm.arc == edge)
@@ -103,10 +101,8 @@ private:
   }
 
   std::vector<InnerArc>& arcs_;
-  const VerticesByPlace& nodes_;
-  const LocalIndex rim_vertices_;
+  const Nodes& nodes_;
   const sizing::SizeField& size_;
-  std::span<const Vec2> kept_;
   VertexTree& tree_;
   std::vector<char> is_gone_; // by arc
   std::map<Key, std::vector<Arm>> arms_;
@@ -114,9 +110,9 @@ private:
 
 } // namespace
 
-std::int64_t join_close_nodes(std::vector<InnerArc>& arcs, const VerticesByPlace& nodes, LocalIndex rim_vertices,
-                              const sizing::SizeField& size, std::span<const Vec2> kept, VertexTree& tree) {
-  return NodeJoiner(arcs, nodes, rim_vertices, size, kept, tree).run();
+std::int64_t join_close_nodes(std::vector<InnerArc>& arcs, const Nodes& nodes, const sizing::SizeField& size,
+                              VertexTree& tree) {
+  return NodeJoiner(arcs, nodes, size, tree).run();
 }
 
 } // namespace trime::generalise

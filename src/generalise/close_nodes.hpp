@@ -18,16 +18,20 @@ namespace trime::generalise {
 /// Vertices of a tree, by place.
 using VerticesByPlace = std::map<std::pair<double, double>, LocalIndex>;
 
+/// The nodes at the ends of open arcs.
+struct Nodes {
+  VerticesByPlace vertices{};
+  LocalIndex rim_vertices = 0;            ///< vertices below this number lie on the boundary
+  std::span<const geometry::Vec2> kept{}; ///< places that must stay, in lexicographic order
+};
+
 /// @brief Removes arcs that are one edge shorter than GeneraliseRules::node_distance, and moves all other arcs at one
-/// of its ends to the other end. An end stays if it lies on the boundary, if it is one of `kept`, or if fewer than
+/// of its ends to the other end. An end stays if it lies on the boundary, if it is one of Nodes::kept, or if fewer than
 /// three arcs meet there. Arcs do not cross each other afterwards: the triangle over which an edge moves holds no
 /// vertex. Where two regions touched along the edge, the other regions around it touch in the node. Cost: O(n log n)
 /// for n arcs.
-/// @param nodes the vertices at the ends of open arcs
-/// @param rim_vertices vertices below this number lie on the boundary
 /// @return the number of nodes that are gone
-std::int64_t join_close_nodes(std::vector<geometry::InnerArc>& arcs, const VerticesByPlace& nodes,
-                              LocalIndex rim_vertices, const sizing::SizeField& size,
-                              std::span<const geometry::Vec2> kept, VertexTree& tree);
+std::int64_t join_close_nodes(std::vector<geometry::InnerArc>& arcs, const Nodes& nodes, const sizing::SizeField& size,
+                              VertexTree& tree);
 
 } // namespace trime::generalise

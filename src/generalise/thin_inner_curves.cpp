@@ -136,7 +136,8 @@ geometry::InnerCurves thin_inner_curves(const geometry::InnerCurves& curves, con
                                         std::span<const Vec2> corners) {
   const geometry::Boundary all = all_curves(curves, boundary);
   VertexTree tree(all, lattice, {});
-  VerticesByPlace nodes; // one vertex for all curves that meet in a node
+  Nodes ends{.kept = corners};
+  VerticesByPlace& nodes = ends.vertices; // one vertex for all curves that meet in a node
   std::vector<std::vector<LocalIndex>> vertices;
   for (std::size_t loop = 0; loop < all.loops.size(); ++loop) {
     vertices.push_back(tree.starts_of_loop(loop));
@@ -159,11 +160,10 @@ geometry::InnerCurves thin_inner_curves(const geometry::InnerCurves& curves, con
   geometry::InnerCurves thinned{{}, curves.names};
   for (std::size_t k = 0; k < curves.arcs.size(); ++k)
     thinned.arcs.push_back(ArcThinner(curves.arcs[k], vertices[boundary.loops.size() + k], size, tree, corners).run());
-  LocalIndex rim_vertices = 0;
   for (std::size_t loop = 0; loop < boundary.loops.size(); ++loop)
     for (const LocalIndex vertex : vertices[loop])
-      rim_vertices = std::max(rim_vertices, vertex + 1);
-  thinned.joined_nodes = join_close_nodes(thinned.arcs, nodes, rim_vertices, size, corners, tree);
+      ends.rim_vertices = std::max(ends.rim_vertices, vertex + 1);
+  thinned.joined_nodes = join_close_nodes(thinned.arcs, ends, size, tree);
   geometry::set_wedges(thinned.arcs, boundary);
   return thinned;
 }
