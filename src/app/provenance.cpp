@@ -160,7 +160,7 @@ std::vector<io::Attribute> program_attributes(const CommandLine& line) {
 
 io::Metadata describe_run(const Provenance& p, const meshing::MeshResult& result, const SizeSummary& size,
                           const Measurements& measured) {
-  return record::with_inner_edges(
+  return record::with_regions(
       {joined({given_attributes(p), record::mesh_attributes(result.mesh, final_retriangulation(result)),
                record::result_attributes(result), measured_attributes(result, size, measured)}),
        texts(p),
@@ -168,7 +168,7 @@ io::Metadata describe_run(const Provenance& p, const meshing::MeshResult& result
         record::bad_triangles_group(result.quality), timers_group(measured.phases), counters_group(measured),
         record::tags_group(p.origin, result.loops), record::sharp_corners_group(result.features.sharp_corners),
         record::rings_group(p.origin, result.features.loops), normalization_group(p.normalized)}},
-      p.origin);
+      p.origin, result.regions);
 }
 
 io::Metadata describe_step(const Provenance& p, const meshing::Snapshot& snapshot) {

@@ -275,20 +275,6 @@ mesh::Checks checks_of(const io::Metadata& metadata) {
 
 namespace {
 
-/// The table of the regions: what their triangles cover, and what they had in the shape.
-io::MetadataGroup regions_group(const std::vector<meshing::RegionSummary>& regions,
-                                const std::vector<std::string>& names) {
-  std::vector<std::int32_t> ids(regions.size());
-  std::iota(ids.begin(), ids.end(), 1);
-  return {"regions",
-          {},
-          {{"region_id", ids},
-           {"region_name", names},
-           column<std::int64_t>("triangles", regions, &meshing::RegionSummary::triangles),
-           column<double>("area", regions, &meshing::RegionSummary::area),
-           column<double>("given_area", regions, &meshing::RegionSummary::given_area)}};
-}
-
 /// The table of the interfaces: columns pair_id, pair_name, left, right and label.
 io::MetadataGroup interfaces_group(const Origin& origin) {
   const geometry::Regions& regions = origin.regions;
@@ -320,6 +306,23 @@ io::Metadata with_inner_edges(io::Metadata metadata, const Origin& origin) {
   }
   if (origin.regions.any())
     metadata.groups.push_back(interfaces_group(origin));
+  return metadata;
+}
+
+io::Metadata with_regions(io::Metadata metadata, const Origin& origin,
+                          const std::vector<meshing::RegionSummary>& regions) {
+  metadata = with_inner_edges(std::move(metadata), origin);
+  if (regions.empty())
+    return metadata;
+  std::vector<std::int32_t> ids(regions.size());
+  std::iota(ids.begin(), ids.end(), 1);
+  metadata.groups.push_back({"regions",
+                             {},
+                             {{"region_id", ids},
+                              {"region_name", origin.regions.names},
+                              column<std::int64_t>("triangles", regions, &meshing::RegionSummary::triangles),
+                              column<double>("area", regions, &meshing::RegionSummary::area),
+                              column<double>("given_area", regions, &meshing::RegionSummary::given_area)}});
   return metadata;
 }
 
@@ -371,17 +374,14 @@ io::Metadata describe(const meshing::MeshResult& result, const Origin& origin, c
                         {"smallest_size", sizes.smallest},
                         {"largest_size", sizes.largest},
                         {"complete", std::int64_t{is_complete(result)}}};
-  io::Metadata metadata = with_inner_edges(
+  return with_regions(
       {joined({format_attributes(), made, place_attributes(origin),
                mesh_attributes(result.mesh, result.triangulations + 1), result_attributes(result)}),
        {},
        {history_group(result.history), quality_group(result.quality), checks_group(result.checks),
         bad_triangles_group(result.quality), tags_group(origin, result.loops),
         sharp_corners_group(result.features.sharp_corners), rings_group(origin, result.features.loops)}},
-      origin);
-  if (!result.regions.empty())
-    metadata.groups.push_back(regions_group(result.regions, origin.regions.names));
-  return metadata;
+      origin, result.regions);
 }
 
 } // namespace trime::record
