@@ -51,6 +51,35 @@ double length_of(const InnerCurves& curves) {
   return sum;
 }
 
+/// Lines from above and from below end on a line from left to right, at a distance of 0.004.
+geometry::Domain close_crossings() {
+  return square_with({{{0.1, 0.5}, {0.9, 0.5}}, {{0.5, 0.5}, {0.5, 0.8}}, {{0.504, 0.5}, {0.504, 0.2}}});
+}
+
+TEST(InnerCurves, CloseNodesBecomeOne) {
+  const geometry::Domain domain = close_crossings();
+  ASSERT_EQ(domain.curves().arcs.size(), 5U);
+  for (const double h : {0.1, 0.01}) {
+    const InnerCurves thinned =
+        generalise::thin_inner_curves(domain.curves(), domain.boundary(), UniformSize(h), unit_lattice(), {});
+    EXPECT_EQ(thinned.joined_nodes, h == 0.1 ? 1 : 0);
+    EXPECT_EQ(thinned.arcs.size(), h == 0.1 ? 4U : 5U);
+    EXPECT_NEAR(length_of(thinned), length_of(domain.curves()), 0.02);
+  }
+}
+
+TEST(InnerCurves, CloseNodesStayWhereAPointIsFixed) {
+  const geometry::Domain domain = close_crossings();
+  std::vector<Vec2> fixed;
+  for (const InnerArc& arc : domain.curves().arcs)
+    for (const Vec2 end : {arc.pieces.front().start, arc.pieces.back().end})
+      fixed.push_back(end);
+  std::sort(fixed.begin(), fixed.end(), geometry::lexicographically_less);
+  EXPECT_EQ(generalise::thin_inner_curves(domain.curves(), domain.boundary(), UniformSize(0.1), unit_lattice(), fixed)
+                .joined_nodes,
+            0);
+}
+
 TEST(InnerCurves, AreCutAtCrossings) {
   const Vec2 middle{0.5, 0.5};
   const geometry::Domain domain = square_with({{{0.25, 0.25}, {0.75, 0.75}}, {{0.25, 0.75}, {0.75, 0.25}}});
