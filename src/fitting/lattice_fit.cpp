@@ -48,7 +48,7 @@ std::optional<Stage> lay_affordable_boundary(const LayoutContext& context, doubl
     fitted.factor = h;
     Stage stage = try_boundary(context, fitted, expected);
     const double held = static_cast<double>(stage.placed_first());
-    if (stage.placed_first() <= *context.options.points) {
+    if (!stage.polygon.overfull && stage.placed_first() <= *context.options.points) {
       const double size = stage.size->size({}), area = context.given_boundary.area + stage.polygon.dropped.change;
       if (round > 0 && context.options.features.keep_all && is_jump(held + area / (row_height * size * size), expected))
         break;

@@ -135,6 +135,18 @@ class RegionMaps(unittest.TestCase):
         for name, area, given in zip(*(mesh.table[key] for key in ("region_name", "area", "given_area"))):
             self.assertAlmostEqual(area, given, delta=0.02 * given + 1e-12, msg=name)
 
+    def test_too_few_points_for_the_grains(self):
+        self.write_map(grains(150, 5))
+        for points in (200, 700):
+            config = self.directory / "few.ini"
+            config.write_text("[shape]\ngeometry = domain\n[region.g]\nfile = map.geojson\nattribute = unit\n"
+                              f"[meshing]\npoints = {points}\n[output]\ndirectory = {self.directory}\nname = few\n"
+                              "overwrite = true\n")
+            done = run(config)
+            self.assertIn(done.returncode, (0, 2, 3), done.stdout + done.stderr)
+            if done.returncode:
+                self.assertIn("are too few", done.stderr)
+
     def test_a_size_for_each_region(self):
         sizing = "[sizing]\nscale = absolute\nmax_size = 0.03\ngradation = 0.2\n"
         text = "[shape]\ngeometry = domain\n" + rectangle("half", (0, 0), (0.5, 1)) + region("left", "half")
