@@ -19,6 +19,8 @@ public:
   NodeJoiner(std::vector<InnerArc>& arcs, const Nodes& nodes, const sizing::SizeField& size, VertexTree& tree)
       : arcs_(arcs), nodes_(nodes), size_(size), tree_(tree), is_gone_(arcs.size(), 0) {
     for (std::size_t k = 0; k < arcs.size(); ++k)
+      ++arcs_of_[curve(k)];
+    for (std::size_t k = 0; k < arcs.size(); ++k)
       if (!arcs[k].closed) {
         arms_[key(start(k))].push_back({k, false});
         arms_[key(end(k))].push_back({k, true});
@@ -52,10 +54,12 @@ private:
   static Key key(Vec2 p) { return {p.x, p.y}; }
   Vec2 start(std::size_t arc) const { return arcs_[arc].pieces.front().start; }
   Vec2 end(std::size_t arc) const { return arcs_[arc].pieces.back().end; }
+  int curve(std::size_t arc) const { return arcs_[arc].pieces.front().part; }
 
   bool is_short(std::size_t k) const {
     const InnerArc& arc = arcs_[k];
-    if (is_gone_[k] != 0 || arc.closed || arc.pieces.size() != 1 || arc.pieces[0].circular || start(k) == end(k))
+    if (is_gone_[k] != 0 || arc.closed || arc.pieces.size() != 1 || arc.pieces[0].circular || start(k) == end(k) ||
+        (curve(k) >= 0 && arcs_of_.at(curve(k)) == 1)) // no curve loses all of its edges
       return false;
     return geometry::length(end(k) - start(k)) < GeneraliseRules::node_distance * sizing::checked_size(size_, start(k));
   }
@@ -76,7 +80,8 @@ private:
   bool joins(std::size_t edge, Vec2 from, Vec2 to) {
     std::vector<Arm>& arms = arms_.at(key(from));
     const LocalIndex vertex = nodes_.vertices.at(key(from));
-    if (arms.size() < 3 || vertex < nodes_.rim_vertices ||
+    const bool is_free_end = arms_.at(key(to)).size() < 2 && nodes_.vertices.at(key(to)) >= nodes_.rim_vertices;
+    if (is_free_end || arms.size() < 3 || vertex < nodes_.rim_vertices ||
         std::binary_search(nodes_.kept.begin(), nodes_.kept.end(), from, geometry::lexicographically_less))
       return false;
     for (const Arm& arm : arms) {
@@ -96,6 +101,7 @@ private:
     arms.clear();
     std::erase_if(arms_.at(key(to)), [edge](const Arm& arm) { return arm.arc == edge; });
     tree_.remove(vertex);
+    --arcs_of_[curve(edge)];
     is_gone_[edge] = 1;
     return true;
   }
@@ -106,6 +112,7 @@ private:
   VertexTree& tree_;
   std::vector<char> is_gone_; // by arc
   std::map<Key, std::vector<Arm>> arms_;
+  std::map<int, std::size_t> arcs_of_; // by curve: how many are left
 };
 
 } // namespace
