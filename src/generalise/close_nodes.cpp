@@ -68,6 +68,12 @@ private:
     return arm.at_end ? arcs_[arm.arc].pieces.back() : arcs_[arm.arc].pieces.front();
   }
 
+  /// Is the place a node on the boundary? An edge between two of them may lie on the boundary.
+  bool is_on_rim(Vec2 p) const {
+    const auto node = nodes_.vertices.find(key(p));
+    return node != nodes_.vertices.end() && node->second < nodes_.rim_vertices;
+  }
+
   /// Does an arc at the node lead to this vertex first?
   bool has_edge(Vec2 node, Vec2 vertex) {
     return std::ranges::any_of(arms_.at(key(node)), [&](const Arm& arm) {
@@ -80,8 +86,8 @@ private:
   bool joins(std::size_t edge, Vec2 from, Vec2 to) {
     std::vector<Arm>& arms = arms_.at(key(from));
     const LocalIndex vertex = nodes_.vertices.at(key(from));
-    const bool is_free_end = arms_.at(key(to)).size() < 2 && nodes_.vertices.at(key(to)) >= nodes_.rim_vertices;
-    if (is_free_end || arms.size() < 3 || vertex < nodes_.rim_vertices ||
+    const bool is_free_end = arms_.at(key(to)).size() < 2 && !is_on_rim(to);
+    if (is_free_end || arms.size() < 3 || is_on_rim(from) ||
         std::binary_search(nodes_.kept.begin(), nodes_.kept.end(), from, geometry::lexicographically_less))
       return false;
     for (const Arm& arm : arms) {
@@ -90,7 +96,8 @@ private:
       const Piece& piece = last_piece(arm);
       const Vec2 next = arm.at_end ? piece.start : piece.end;
       if (piece.circular || start(arm.arc) == end(arm.arc) || (arm.at_end ? start(arm.arc) : end(arm.arc)) == to ||
-          next == to || has_edge(to, next) || !tree_.is_empty_at({from, to, next}))
+          next == to || has_edge(to, next) || (is_on_rim(to) && is_on_rim(next)) ||
+          !tree_.is_empty_at({from, to, next}))
         return false;
     }
     for (const Arm& arm : arms)

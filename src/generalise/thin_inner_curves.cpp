@@ -36,12 +36,43 @@ geometry::Boundary all_curves(const geometry::InnerCurves& curves, const geometr
   return all;
 }
 
+/// What all arcs have in common.
+struct Thinning {
+  const sizing::SizeField& size;
+  VertexTree& tree;
+  std::span<const Vec2> corners;
+};
+
+/// Counts the open arcs by their ends. Two arcs with the same ends must not both become straight, and an arc between
+/// two places of the boundary must not come to lie on it.
+class ArcEnds {
+public:
+  /// @param rim_vertices vertices below this number lie on the boundary
+  ArcEnds(const std::vector<InnerArc>& arcs, std::span<const std::vector<LocalIndex>> vertices, LocalIndex rim_vertices)
+      : rim_vertices_(rim_vertices) {
+    for (std::size_t k = 0; k < arcs.size(); ++k)
+      if (!arcs[k].closed)
+        ++arcs_of_[ends(vertices[k])];
+  }
+  bool must_bend(const std::vector<LocalIndex>& vertices) const {
+    const auto found = arcs_of_.find(ends(vertices));
+    return found != arcs_of_.end() && (found->second > 1 || found->first.second < rim_vertices_);
+  }
+
+private:
+  using Ends = std::pair<LocalIndex, LocalIndex>; // the lower one first
+  static Ends ends(const std::vector<LocalIndex>& vertices) { return std::minmax({vertices.front(), vertices.back()}); }
+  LocalIndex rim_vertices_;
+  std::map<Ends, int> arcs_of_;
+};
+
 /// Removes vertices of arcs one after the other.
 class ArcThinner {
 public:
-  ArcThinner(const InnerArc& arc, std::vector<LocalIndex> vertices, const sizing::SizeField& size, VertexTree& tree,
-             std::span<const Vec2> corners)
-      : arc_(arc), vertices_(std::move(vertices)), size_(size), tree_(tree), corners_(corners) {
+  /// @param must_bend the arc may not become one straight edge
+  ArcThinner(const InnerArc& arc, std::vector<LocalIndex> vertices, bool must_bend, const Thinning& thinning)
+      : arc_(arc), vertices_(std::move(vertices)), must_bend_(must_bend), size_(thinning.size), tree_(thinning.tree),
+        corners_(thinning.corners) {
     const std::size_t n = vertices_.size();
     for (std::size_t k = 0; k < n; ++k) {
       next_.push_back(k + 1 < n ? k + 1 : 0);
@@ -62,7 +93,7 @@ public:
     };
     for (std::size_t k = 0; k < vertices_.size(); ++k)
       enter(k, 0);
-    const std::size_t least_left = arc_.closed ? GeneraliseRules::least_vertices : 2;
+    const std::size_t least_left = arc_.closed ? GeneraliseRules::least_vertices : must_bend_ ? 3 : 2;
     while (!queue.empty() && left_ > least_left) {
       const auto [area, k] = *queue.begin();
       queue.erase(queue.begin());
@@ -121,6 +152,7 @@ private:
 
   const InnerArc& arc_;
   const std::vector<LocalIndex> vertices_; // numbers in the tree
+  const bool must_bend_;
   const sizing::SizeField& size_;
   VertexTree& tree_;
   std::span<const Vec2> corners_;
@@ -157,12 +189,15 @@ geometry::InnerCurves thin_inner_curves(const geometry::InnerCurves& curves, con
         tree.remove(vertices[loop][k]);
       vertices[loop][k] = node->second;
     }
-  geometry::InnerCurves thinned{{}, curves.names};
-  for (std::size_t k = 0; k < curves.arcs.size(); ++k)
-    thinned.arcs.push_back(ArcThinner(curves.arcs[k], vertices[boundary.loops.size() + k], size, tree, corners).run());
   for (std::size_t loop = 0; loop < boundary.loops.size(); ++loop)
     for (const LocalIndex vertex : vertices[loop])
       ends.rim_vertices = std::max(ends.rim_vertices, vertex + 1);
+  const std::span<const std::vector<LocalIndex>> of_arcs = std::span(vertices).subspan(boundary.loops.size());
+  const ArcEnds arc_ends(curves.arcs, of_arcs, ends.rim_vertices);
+  geometry::InnerCurves thinned{{}, curves.names};
+  for (std::size_t k = 0; k < curves.arcs.size(); ++k)
+    thinned.arcs.push_back(
+        ArcThinner(curves.arcs[k], of_arcs[k], arc_ends.must_bend(of_arcs[k]), {size, tree, corners}).run());
   thinned.joined_nodes = join_close_nodes(thinned.arcs, ends, size, tree);
   geometry::set_wedges(thinned.arcs, boundary);
   return thinned;

@@ -68,6 +68,17 @@ TEST(InnerCurves, CloseNodesBecomeOne) {
   }
 }
 
+TEST(InnerCurves, FlatFacesKeepTheirTwoSides) {
+  const geometry::Domain domain = square_with({{{0.25, 0.5}, {0.5, 0.503}, {0.75, 0.5}},
+                                               {{0.25, 0.5}, {0.5, 0.497}, {0.75, 0.5}},
+                                               {{0.375, 0}, {0.4375, 0.004}, {0.5, 0}}});
+  const InnerCurves thinned =
+      generalise::thin_inner_curves(domain.curves(), domain.boundary(), UniformSize(0.1), unit_lattice(), {});
+  ASSERT_EQ(thinned.arcs.size(), 3U);
+  for (const InnerArc& arc : thinned.arcs)
+    EXPECT_EQ(arc.pieces.size(), 2U); // two straight arcs would be one edge, or lie on the boundary
+}
+
 TEST(InnerCurves, CloseNodesStayWhereAPointIsFixed) {
   const geometry::Domain domain = close_crossings();
   std::vector<Vec2> fixed;
