@@ -36,15 +36,15 @@ geometry::Boundary all_curves(const geometry::InnerCurves& curves, const geometr
   return all;
 }
 
-/// What all arcs have in common.
+/// The objects that all arcs share.
 struct Thinning {
   const sizing::SizeField& size;
   VertexTree& tree;
   std::span<const Vec2> corners;
 };
 
-/// Counts the open arcs by their ends. Two arcs with the same ends must not both become straight, and an arc between
-/// two places of the boundary must not come to lie on it.
+/// Counts the open arcs by their ends. Two arcs with the same ends must not both become straight. An arc between two
+/// places of the boundary must keep a vertex, too, since a straight one could lie on the boundary.
 class ArcEnds {
 public:
   /// @param rim_vertices vertices below this number lie on the boundary
