@@ -42,8 +42,8 @@ public:
   std::span<const geometry::Vec2> held() const { return held_.empty() ? inside() : held_; }
   /// Returns the fixed points that are vertices of curves, in lexicographic order. They no longer are in inside().
   std::span<const geometry::Vec2> on_curves() const { return on_curves_; }
-  /// @brief Lets the simplification of the boundary keep the curves inside the shape. Takes the points that are
-  /// vertices of curves out of inside().
+  /// @brief Lets the simplification of the boundary keep the curves and interfaces inside the shape. Takes the points
+  /// that are vertices of curves out of inside().
   /// @throws GeometryError if a point of inside() lies on a curve, but is not a vertex of it
   void hold(const geometry::Domain& domain);
   /// Returns the given boundary with a corner at each fixed point that lies on it. If there is no such point, returns a

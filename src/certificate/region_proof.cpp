@@ -5,8 +5,6 @@
 #include "core/thread_loop.hpp"
 
 #include <algorithm>
-#include <array>
-#include <map>
 #include <utility>
 
 namespace trime::certificate {

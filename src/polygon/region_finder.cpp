@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "polygon/region_finder.hpp"
 
-#include <algorithm>
+#include <utility>
 
 namespace trime::polygon {
 

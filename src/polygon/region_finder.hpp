@@ -8,7 +8,6 @@
 #include "trime/geometry/boundary.hpp"
 #include "trime/geometry/segment_grid.hpp"
 
-#include <array>
 #include <cstddef>
 #include <vector>
 

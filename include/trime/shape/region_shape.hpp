@@ -103,7 +103,7 @@ struct Division {
   double least_width = 0;     ///< so do faces that are narrower; see absorb_small_faces
 };
 
-/// What lies inside a shape: curves that edges of the mesh follow, and regions.
+/// Describes what lies inside a shape: curves that edges of the mesh follow, and regions.
 struct InnerParts {
   std::vector<Part> curves{}; ///< made by Part::curve
   std::vector<char> clip{}; ///< by curve: whether what lies outside of the shape is left out; otherwise it is an error
