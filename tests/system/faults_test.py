@@ -22,12 +22,11 @@ import h5py
 
 from interrupted_test import processes_of
 from progress_test import ERASE
-from trime_run import PROGRAM, ROOT, Workspace, command, environment, run
+from trime_run import PATIENCE, PROGRAM, ROOT, Workspace, command, environment, run
 
 CONFIG = ROOT / "configs" / "square.ini"
 FILE = 4  # exit code
 SOON = 30  # seconds from the fault to the end
-PATIENCE = 120  # seconds for a run that nothing disturbs, on a machine that is busy
 POINTS = 40_000
 ROOM = "16m"  # the mesh needs 8 MB, and twice that while it replaces an older one
 # As the live line names them, in their order.

@@ -11,11 +11,10 @@ import unittest
 
 import h5py
 
-from trime_run import MPIEXEC, PROGRAM, ROOT, Workspace, command, environment
+from trime_run import MPIEXEC, PATIENCE, PROGRAM, ROOT, Workspace, command, environment
 
 CONFIG = ROOT / "configs" / "square.ini"
 LONG, SHORT = 8_000_000, 100_000  # points: far from its end after some seconds; soon at its end
-PATIENCE = 100  # seconds
 
 
 def processes_of(directory):

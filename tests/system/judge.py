@@ -24,7 +24,7 @@ import h5py
 import real_shapes
 from mesh_measures import MeshMeasures
 from ring_tools import even_odd_area, normalized, rings_of, text_of
-from trime_run import PROGRAM, environment
+from trime_run import PATIENCE, PROGRAM, environment
 
 COLUMNS = {
     "shape": "kind, seed and vertices of real_shapes.py",
@@ -121,7 +121,7 @@ def config_text(points, sizing):
             f"[meshing]\npoints = {points}\n")
 
 
-def run_and_judge(kind, seed, vertices, points, sizing, overrides=(), timeout=120, keep=None):
+def run_and_judge(kind, seed, vertices, points, sizing, overrides=(), timeout=PATIENCE, keep=None):
     """All columns of one run; keep: a directory for config, contour, mesh and output."""
     row = {"shape": f"{kind} {seed} {vertices}", "vertices": vertices, "asked": points, "sizing": str(sizing)}
     rings = real_shapes.shape(kind, seed, vertices)

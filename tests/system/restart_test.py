@@ -18,12 +18,11 @@ import unittest
 import h5py
 
 from interrupted_test import processes_of
-from trime_run import ROOT, Workspace, command, environment, run
+from trime_run import PATIENCE, ROOT, Workspace, command, environment, run
 
 CIRCLE = ROOT / "configs" / "circle.ini"
 KILLS = int(os.environ.get("TRIME_RESTART_KILLS", "1"))
 STOPPED, USAGE, FILE = 75, 2, 4  # exit codes
-PATIENCE = 120  # seconds
 MANY = 150_000  # points: some seconds
 
 

@@ -9,6 +9,9 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = os.environ.get("TRIME_PROGRAM", str(ROOT / "build" / "ci" / "trime_mpi"))
 MPIEXEC = os.environ.get("TRIME_MPIEXEC", "mpirun")
+# Seconds until a run counts as hanging. Ranks that share a core with many others wait for each other in every exchange: a
+# run of 4 s on an idle machine has taken 140 s beside 14 busy processes.
+PATIENCE = 600
 
 
 # Open MPI starts faster by 0.2 s if it looks for no network. Singletons keep their daemons: without them
@@ -34,7 +37,7 @@ def command(arguments, ranks):
     return start + [PROGRAM] + [str(argument) for argument in arguments]
 
 
-def run(*arguments, ranks=1, threads=1, timeout=120, cwd=None):
+def run(*arguments, ranks=1, threads=1, timeout=PATIENCE, cwd=None):
     """Returns a finished run: returncode, stdout, stderr. Open MPI waits a second, twice, for ranks to end after a
     failure; here it does not."""
     at_once = {"OMPI_MCA_odls_base_sigkill_timeout": "0"}
