@@ -9,8 +9,8 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = os.environ.get("TRIME_PROGRAM", str(ROOT / "build" / "ci" / "trime_mpi"))
 MPIEXEC = os.environ.get("TRIME_MPIEXEC", "mpirun")
-# Seconds until a run counts as hanging. Ranks that share a core with many others wait for each other in every exchange: a
-# run of 4 s on an idle machine has taken 140 s beside 14 busy processes.
+# Seconds until a run counts as hanging. Ranks that share a core with many others wait for each other in every exchange:
+# a run of 4 s on an idle machine has taken 140 s beside 14 busy processes.
 PATIENCE = 600
 
 
