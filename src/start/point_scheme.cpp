@@ -39,6 +39,13 @@ constexpr double small_shortage = 0.01;
 // that are full of fixed points.
 constexpr double most_replaced = 4;
 
+// [points expected] A coarse start of a shape with curves inside has at most this many points. Where arcs are shorter
+// than the coarse edges, there are more points than expected; each division multiplies the surplus, and then so many
+// points along the arcs must go that the mesh is irregular there. Measured with 1e6 points: 1000 grains took 13 s with
+// 1.05 times the expected points and one division, and 29 s with 1.43 times and three; the mean alpha was 1.0107 and
+// 1.0182. 500 discs took 7.1 s with 1.08 times and two divisions, and 10.5 s with 1.26 times and three.
+constexpr double most_crowded = 1.1;
+
 // [stages] Divisions where the size is limited to the growth that triangles can follow: the sizes of the coarser stage
 // grow by twice as much.
 constexpr int divisions_of_steep_sizes = 1;
@@ -212,7 +219,9 @@ PointScheme::First PointScheme::first_of_divisions() {
     stage = lay_division(fit.stage, expected);
     start = along_curve(stage, expected, last_stage_ > 0 ? StartRules::coarse_start : 1);
     inner = start->wanted();
-    if (last_stage_ == 0 || inner >= static_cast<double>(stage.placed_first()))
+    const double on_curves = static_cast<double>(stage.placed_first());
+    const bool is_crowded = !stage.polygon.inner.empty() && inner + on_curves > most_crowded * expected;
+    if (last_stage_ == 0 || (inner >= on_curves && !is_crowded))
       break;
   }
   if (scheme_ == Scheme::coarse_to_fine)
