@@ -51,6 +51,17 @@ CurveOptions curve_of(const Settings& settings, const std::string& name, const f
   return curve;
 }
 
+/// Returns whether the largest areas of triangles in a file count.
+bool area_limits_of(const Settings& settings, const std::string& section, Diagnostics& problems) {
+  const bool limits = settings.boolean(section, "area_limits");
+  if (limits && settings.text("sizing", "scale") != "absolute")
+    problems.add(settings.line(section, "area_limits"),
+                 fmt::format("'area_limits = true' in [{}] needs 'scale = absolute' in [sizing], because the areas in "
+                             "the file are not relative to another size",
+                             section));
+  return limits;
+}
+
 /// Without its expression.
 RegionOptions region_of(const Settings& settings, const std::string& name, const fs::path& directory,
                         const RunOptions& options, Diagnostics& problems) {
@@ -61,11 +72,15 @@ RegionOptions region_of(const Settings& settings, const std::string& name, const
   if (settings.text(section, "file") != "none") {
     read_file_of(settings, section, directory, region);
     region.normalize_with = normalizing_contour(settings, section, options, problems);
+    region.area_limits = area_limits_of(settings, section, problems);
     if (settings.text(section, "geometry") != own_name)
       problems.add(settings.line(section, "geometry"),
                    fmt::format("[{}] has 'geometry' and 'file': expected only one of them", shown(section)));
     return region;
   }
+  if (settings.boolean(section, "area_limits"))
+    problems.add(settings.line(section, "area_limits"),
+                 fmt::format("'area_limits' in [{}] needs 'file', a .poly with region points", section));
   for (const char* key : {"attribute", "normalize_with"})
     if (settings.text(section, key) != "none")
       problems.add(settings.line(section, key),

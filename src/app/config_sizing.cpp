@@ -74,7 +74,7 @@ void read_gradation(const Settings& settings, RunOptions& options, Diagnostics& 
   }
   if (growth && *growth == 0) // the automatic size is uniform
     growth.reset();
-  const auto is_sized = [](const RegionOptions& region) { return region.size.has_value(); };
+  const auto is_sized = [](const RegionOptions& region) { return region.size.has_value() || region.area_limits; };
   if (!growth && settings.text("sizing", "gradation") == "auto" && std::ranges::any_of(options.regions, is_sized))
     growth = sizing::SizingRules::function_gradation;
 }

@@ -182,7 +182,8 @@ const Option table[] = {
      .fallback = "none",
      .choices = "none",
      .meaning = "instead of `geometry`: a file with the polygons of the region, in one of the formats of contours. "
-                "Polygons of a `.geojson` or `.shp` may overlap and share borders"},
+                "Polygons of a `.geojson` or `.shp` may overlap and share borders. Each attribute of the region points "
+                "of a `.poly` makes a region `NAME.ATTRIBUTE`"},
     {.section = "region.NAME",
      .key = "attribute",
      .kind = OptionKind::text,
@@ -202,12 +203,19 @@ const Option table[] = {
      .meaning = "largest size in the region: a length with `scale = absolute` in [sizing], otherwise relative to the "
                 "size of [sizing], so that 0.5 halves a uniform size. The size grows from there by `gradation`"},
 
+    {.section = "region.NAME",
+     .key = "area_limits",
+     .kind = OptionKind::boolean,
+     .fallback = "false",
+     .meaning = "true: the largest areas of triangles in the region points of a `.poly` file bound the size; needs "
+                "`scale = absolute` in [sizing]"},
+
     {.section = "curve.NAME",
      .key = "file",
      .kind = OptionKind::path,
      .meaning =
          "the lines of the curve NAME inside the shape, which edges of the mesh follow: a `.xy` file, whose lines "
-         "need not be closed, or the lines and polygons of a `.geojson` or `.shp`"},
+         "need not be closed, the segments of a `.poly`, or the lines and polygons of a `.geojson` or `.shp`"},
     {.section = "curve.NAME",
      .key = "attribute",
      .kind = OptionKind::text,

@@ -46,6 +46,7 @@ struct RegionOptions {
   std::string attribute;         ///< attribute of map features that divides the file; empty: no attribute
   std::string normalize_with;    ///< name of the contour whose normalisation is applied; empty: no normalisation
   std::optional<double> size;    ///< largest size in the region
+  bool area_limits = false;      ///< the largest areas in the file, see contours::Contour, bound the size
 };
 
 /// One section [curve.NAME] of a config.

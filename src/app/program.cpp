@@ -244,7 +244,7 @@ public:
         series_(series_options(job, input_), job.comm), mesh_(placed_options(job.options, input_, job.comm)) {
     size_ = [&] {
       const auto timing = job.timers.scope("size field");
-      return build_size(job.options, input_.domain(), job.comm);
+      return build_size(job.options, input_.domain(), job.comm, input_.bounds);
     }();
     points_ = meshing::Mesher(job.comm, input_.domain(), *size_.field, mesh_, job.log, job.timers).expected_points();
     check_output();

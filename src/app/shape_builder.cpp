@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
 #include <span>
 
@@ -86,9 +87,19 @@ void read_inner_files(const RunOptions& options, std::span<contours::Contour> co
   }
   for (std::size_t k = 0; k < options.regions.size(); ++k)
     if (const RegionOptions& region = options.regions[k]; !region.file.empty())
-      contours[options.curves.size() + k] = contours::read_contour(
+      contours[options.curves.size() + k] = contours::read_regions(
           region.file, fmt::format("; 'file' in [region.{}]{}", region.name, hint_of(region.file_is_relative)),
           region.attribute);
+}
+
+/// Removes the warnings about the inside of a file which regions or curves read.
+void drop_inner_warnings(const RunOptions& options, const std::string& file, contours::Contour& contour) {
+  const auto reads = [&](const auto& one) { return one.file == file; };
+  if (std::ranges::none_of(options.regions, reads) && std::ranges::none_of(options.curves, reads))
+    return;
+  std::erase_if(contour.warnings, [&](const std::string& warning) {
+    return std::ranges::find(contour.inner_warnings, warning) != contour.inner_warnings.end();
+  });
 }
 
 /// The rings of parts that are contours, by part, projected. Rank 0 reads. Collective.
@@ -104,6 +115,8 @@ std::vector<contours::Contour> read_contours(const RunOptions& options, const co
         contours[k] = contours::read_contour(
             part.file, fmt::format("; 'file' in [shape.{}]{}", part.name, hint_of(part.file_is_relative)),
             part.attribute, faults_of(part));
+    for (std::size_t k = 0; k < options.parts.size(); ++k)
+      drop_inner_warnings(options, options.parts[k].file, contours[k]);
     for (std::size_t k = 0; k < options.parts.size(); ++k)
       if (options.parts[k].dissolve && !contours[k].is_map)
         throw ConfigError(fmt::format("{}: 'overlap = union' in [shape.{}] unites the polygons of a map; expected a "
@@ -263,6 +276,11 @@ void tell_of(const geometry::InnerCurves& curves, Log& log) {
     if (curves.outside[k] > 0)
       log.summary("curve '{}': a length of {:.6g} lies outside of the shape and is left out", curves.names[k],
                   curves.outside[k]);
+    if (is_inside[k] == 0 && curves.on_boundary[k] > 0 && !(curves.outside[k] > 0)) {
+      log.summary("curve '{}' lies on the boundary of the shape; the edges there have only the name of the boundary",
+                  curves.names[k]);
+      continue;
+    }
     if (curves.on_boundary[k] > 0)
       log.warning(
           "curve '{}': a length of {:.6g} lies on the boundary of the shape; the edges there have only the name "
@@ -308,9 +326,10 @@ void set_least_faces(const RunOptions& options, const geometry::Box& container, 
   const boundary::FeatureOptions& features = options.mesh.features;
   if (features.keep_all || !(features.within > 0))
     return;
-  const bool is_uniform =
-      options.sizing.type == "uniform" && options.sizing.size_at.empty() &&
-      std::ranges::none_of(options.regions, [](const RegionOptions& region) { return region.size.has_value(); });
+  const bool is_uniform = options.sizing.type == "uniform" && options.sizing.size_at.empty() &&
+                          std::ranges::none_of(options.regions, [](const RegionOptions& region) {
+                            return region.size.has_value() || region.area_limits;
+                          });
   const double length = length_of(options).length;
   const double h = (length > 0 ? length : estimated_size(options, container)) * (is_uniform ? 1 : least_local_size);
   division.least_perimeter = boundary::BoundaryRules::least_perimeter * h;
@@ -374,10 +393,12 @@ public:
     tell_of_file(contour, log_);
     if (keeps_places_)
       found.add(contour, place);
+    add_area_limits(region, contour, place.scale);
+    const bool share_borders = contour.is_map || !contour.marker_names.empty();
     for (const auto& [name, polygons] : divided(region.name, contour)) {
       division.regions.push_back({name, {}, static_cast<int>(division.parts.size())});
       division.parts.push_back(shape::Part::contour(name, polygons, place, frame_,
-                                                    {.dissolve = contour.is_map, .faults = contours::Faults::refuse}));
+                                                    {.dissolve = share_borders, .faults = contours::Faults::refuse}));
       for (const std::string& warning : division.parts.back().warnings())
         log_.warning("{}", warning);
     }
@@ -398,8 +419,30 @@ public:
   std::map<std::string, contours::Normalization> places; // by name of the part
   std::vector<NormalizedPart> normalized;
   UserPlaces found;
+  std::vector<sizing::RegionBound> bounds; // by the files of regions
 
 private:
+  /// Notes the largest sizes in the regions of a file. @param scale lengths in the container over those in the file
+  void add_area_limits(const RegionOptions& region, const contours::Contour& contour, double scale) {
+    if (contour.largest_areas.empty()) {
+      if (region.area_limits)
+        log_.warning("{}: 'area_limits = true' in [region.{}] has no effect: no region point has a largest area",
+                     contour.source, region.name);
+      return;
+    }
+    if (!region.area_limits) {
+      log_.warning("{}: the largest areas of the region points are not used; 'area_limits = true' in [region.{}] "
+                   "bounds the size by them",
+                   contour.source, region.name);
+      return;
+    }
+    const std::vector<std::pair<std::string, contours::Contour>> regions = divided(region.name, contour);
+    for (std::size_t k = 0; k < regions.size(); ++k) // both are in the order of the markers
+      if (const double area = contour.largest_areas[k]; std::isfinite(area))
+        bounds.push_back({static_cast<int>(inner.division.regions.size() + k) + 1,
+                          scale * std::sqrt(4 * area / std::numbers::sqrt3)}); // an equilateral triangle
+  }
+
   const RunOptions& options_;
   const geometry::Frame& frame_;
   const shape::Region region_;
@@ -431,8 +474,12 @@ ShapeInput read_shape(const RunOptions& given, ShapeUse use, const comm::Communi
   if (!map.crs.empty())
     made.found.set_on_earth([map](geometry::Vec2 place) { return on_earth(map, place); });
   places = std::move(made.found);
-  ShapeInput input{
-      {}, {}, made.places[options.fixed_points.normalize_with], std::move(made.normalized), std::move(map)};
+  ShapeInput input{{},
+                   {},
+                   made.places[options.fixed_points.normalize_with],
+                   std::move(made.normalized),
+                   std::move(map),
+                   std::move(made.bounds)};
   if (use == ShapeUse::queries)
     input.shape.emplace(std::move(made.parts), options.geometry, frame, made.inner);
   else

@@ -6,6 +6,7 @@
 #include "app/map_projection.hpp"
 #include "app/options.hpp"
 #include "app/user_places.hpp"
+#include "sizing/region_size.hpp"
 #include "trime/comm/communicator.hpp"
 #include "trime/contours/contour.hpp"
 #include "trime/geometry/boundary.hpp"
@@ -39,6 +40,7 @@ struct ShapeInput {
                                               ///< with which they are normalised
   std::vector<NormalizedPart> normalized;     ///< the parts that were normalised, in the order of the parts
   MapSystem map;                              ///< reference system of the coordinates of the container
+  std::vector<sizing::RegionBound> bounds;    ///< largest sizes in regions, as files give them
 };
 
 /// @brief Makes the shape. Reads each file once, and writes warnings to the log.

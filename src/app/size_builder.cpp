@@ -138,9 +138,11 @@ void lower_at_boundary(const RunOptions& options, const geometry::Domain& domain
 }
 
 /// Bounds the size in regions.
-void lower_in_regions(const RunOptions& options, const geometry::Domain& domain, BuiltSize& size) {
+void lower_in_regions(const RunOptions& options, const geometry::Domain& domain,
+                      std::vector<sizing::RegionBound> bounds, BuiltSize& size) {
   const std::vector<std::string>& names = domain.regions().names;
-  std::vector<sizing::RegionBound> bounds;
+  for (const sizing::RegionBound& bound : bounds)
+    size.description += fmt::format(", {:.6g} in {}", bound.size, names[static_cast<std::size_t>(bound.region)]);
   for (const RegionOptions& region : options.regions) {
     if (!region.size)
       continue;
@@ -157,7 +159,8 @@ void lower_in_regions(const RunOptions& options, const geometry::Domain& domain,
 
 } // namespace
 
-BuiltSize build_size(const RunOptions& options, const geometry::Domain& domain, const comm::Communicator& comm) {
+BuiltSize build_size(const RunOptions& options, const geometry::Domain& domain, const comm::Communicator& comm,
+                     std::vector<sizing::RegionBound> bounds) {
   check_largest_size(options, domain);
   BuiltSize size;
   if (options.sizing.type == "automatic") {
@@ -169,7 +172,7 @@ BuiltSize build_size(const RunOptions& options, const geometry::Domain& domain, 
         options.mesh.absolute_sizes ? options.mesh.max_size.value_or(1) : 1.0);
     size.description = "uniform";
   }
-  lower_in_regions(options, domain, size);
+  lower_in_regions(options, domain, std::move(bounds), size);
   if (!options.sizing.size_at.empty())
     lower_at_boundary(options, domain, size);
   if (options.mesh.absolute_sizes)

@@ -4,6 +4,7 @@
 
 #include "app/options.hpp"
 #include "core/distance_formula.hpp"
+#include "sizing/region_size.hpp"
 #include "trime/comm/communicator.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/sizing/size_field.hpp"
@@ -23,9 +24,10 @@ struct BuiltSize {
   std::string description; ///< text for the report, such as "automatic, gradation 0.1, features of 0.004 and more"
 };
 
-/// Makes the size field.
+/// Makes the size field. @param bounds sizes in regions, in addition to those of the options
 /// @throws ConfigError on all ranks together
 /// @note Collective.
-BuiltSize build_size(const RunOptions& options, const geometry::Domain& domain, const comm::Communicator& comm);
+BuiltSize build_size(const RunOptions& options, const geometry::Domain& domain, const comm::Communicator& comm,
+                     std::vector<sizing::RegionBound> bounds = {});
 
 } // namespace trime::app

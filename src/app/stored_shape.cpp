@@ -46,7 +46,7 @@ bool is_simplified(const io::Metadata& metadata) {
 /// Returns the curves of the run. Collective.
 geometry::Boundary simplified_curves(const RunOptions& options, ShapeInput& input, const comm::Communicator& comm) {
   input.set_fixed_points(read_fixed_points(options, input, comm));
-  const BuiltSize size = build_size(options, input.domain(), comm);
+  const BuiltSize size = build_size(options, input.domain(), comm, input.bounds);
   return meshing::meshed_curves(comm, input.domain(), *size.field, placed_options(options, input, comm));
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -54,7 +55,61 @@ std::optional<std::vector<Ring>> rings_of(const Neighbours& neighbours, const st
   return rings;
 }
 
-/// Triangle's file: a head and vertices, a head and segments; what follows says where the holes are.
+double twice_area_of(const Ring& ring) {
+  double twice = 0;
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const Point a = ring[k], b = ring[(k + 1) % ring.size()];
+    twice += a.x * b.y - a.y * b.x;
+  }
+  return std::fabs(twice);
+}
+
+bool encloses(const Ring& ring, Point p) {
+  bool inside = false;
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const Point a = ring[k], b = ring[(k + 1) % ring.size()];
+    if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x))
+      inside = !inside;
+  }
+  return inside;
+}
+
+/// Returns the number of the smallest ring around p whose area is larger than `above`; the number of rings for none.
+std::size_t smallest_around(const std::vector<Ring>& rings, Point p, double above) {
+  std::size_t smallest = rings.size();
+  for (std::size_t k = 0; k < rings.size(); ++k)
+    if (const double area = twice_area_of(rings[k]); area > above && encloses(rings[k], p))
+      if (smallest == rings.size() || area < twice_area_of(rings[smallest]))
+        smallest = k;
+  return smallest;
+}
+
+/// Removes the rings with material on both sides. As in Triangle, a ring encloses a hole only if a hole point says so.
+std::vector<Ring> around_material(const std::vector<Ring>& rings, const std::vector<Point>& holes) {
+  std::vector<char> is_empty(rings.size() + 1, 0);
+  is_empty[rings.size()] = 1; // outside of all rings
+  for (const Point hole : holes)
+    is_empty[smallest_around(rings, hole, 0)] = 1;
+  std::vector<Ring> kept;
+  for (std::size_t k = 0; k < rings.size(); ++k) {
+    const Point a = rings[k][0], b = rings[k][1];
+    const std::size_t outer = smallest_around(rings, {(a.x + b.x) / 2, (a.y + b.y) / 2}, twice_area_of(rings[k]));
+    if (is_empty[outer] != is_empty[k])
+      kept.push_back(rings[k]);
+  }
+  return kept;
+}
+
+/// The points of the list in row `first` and behind it. The list may be missing.
+std::vector<Point> points_of(const std::vector<std::vector<double>>& rows, std::size_t first) {
+  std::vector<Point> points;
+  const std::size_t count = first < rows.size() && rows[first][0] > 0 ? static_cast<std::size_t>(rows[first][0]) : 0;
+  for (std::size_t k = first + 1; k <= first + count && k < rows.size() && rows[k].size() >= 3; ++k)
+    points.push_back({rows[k][1], rows[k][2]});
+  return points;
+}
+
+/// Triangle's file: a head and vertices, a head and segments, and the holes.
 ContourRings read_poly(const std::string& path, const std::string& text) {
   const ContourRings nothing{{}, fmt::format("{}: trime_check finds no closed rings in its segments", path), ""};
   const std::vector<std::vector<double>> rows = number_rows(text);
@@ -81,7 +136,9 @@ ContourRings read_poly(const std::string& path, const std::string& text) {
     }
   }
   std::optional<std::vector<Ring>> rings = rings_of(neighbours, places);
-  return rings ? ContourRings{std::move(*rings), "", ""} : nothing;
+  if (!rings)
+    return nothing;
+  return {around_material(*rings, points_of(rows, vertices + segments + 2)), "", ""};
 }
 
 } // namespace

@@ -37,7 +37,9 @@ public:
       const std::string section = "region." + name, geometry = config.value(section, "geometry");
       if (!config.value(section, "file").empty()) {
         reason = fmt::format("the polygons of region {} come from a file", name);
-        add_stored(name, !config.value(section, "attribute").empty(), stored);
+        const bool has_values =
+            !config.value(section, "attribute").empty() || config.value(section, "file").ends_with(".poly");
+        add_stored(name, has_values, stored);
         continue;
       }
       names.push_back(name);

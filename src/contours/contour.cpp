@@ -263,6 +263,18 @@ bool lacks_vertices(std::string_view text) {
   return false;
 }
 
+bool is_poly(const std::string& path) {
+  return ends_with_extension(path, ".poly");
+}
+
+/// Returns the text of the file with the vertices of a `.poly` file that has none; otherwise an empty text.
+std::string nodes_of(const std::string& path, std::string_view text) {
+  if (!lacks_vertices(text))
+    return {};
+  const std::string name = path.substr(0, path.size() - std::string_view(".poly").size()) + ".node";
+  return read_file(name, fmt::format(" ({} itself has no vertices, so they must be in {})", path, name));
+}
+
 } // namespace
 
 Contour parse_contour(std::string_view text, const std::string& source, const std::string& attribute, Faults faults) {
@@ -270,7 +282,7 @@ Contour parse_contour(std::string_view text, const std::string& source, const st
   if (is_geojson(source))
     return parse_geojson(text, source, attribute, faults);
   refuse_geojson(text, source);
-  if (ends_with_extension(source, ".poly"))
+  if (is_poly(source))
     return parse_poly(text, source, {}, faults);
   if (ends_with_extension(source, ".msh"))
     return parse_jigsaw(text, source, faults);
@@ -283,14 +295,17 @@ Contour read_contour(const std::string& path, const std::string& hint, const std
   if (ends_with_extension(path, ".shp"))
     return read_shapefile(path, hint, attribute, faults);
   const std::string text = read_file(path, hint);
-  if (ends_with_extension(path, ".poly") && lacks_vertices(text)) {
-    const std::string stem = path.substr(0, path.size() - std::string_view(".poly").size());
-    return parse_poly(text, path,
-                      read_file(stem + ".node", fmt::format(" ({} itself has no vertices, so they must be in {})", path,
-                                                            stem + ".node")),
-                      faults);
-  }
+  if (is_poly(path))
+    return parse_poly(text, path, nodes_of(path, text), faults);
   return parse_contour(text, path, attribute, faults);
+}
+
+Contour read_regions(const std::string& path, const std::string& hint, const std::string& attribute) {
+  if (!is_poly(path))
+    return read_contour(path, hint, attribute);
+  check_has_attributes(path, attribute);
+  const std::string text = read_file(path, hint);
+  return parse_poly_regions(text, path, nodes_of(path, text));
 }
 
 Contour parse_curves(std::string_view text, const std::string& source, const std::string& attribute) {
@@ -298,21 +313,21 @@ Contour parse_curves(std::string_view text, const std::string& source, const std
   if (is_geojson(source))
     return parse_geojson_lines(text, source, attribute);
   refuse_geojson(text, source);
-  return parse_xy_lines(text, source);
+  return is_poly(source) ? parse_poly_lines(text, source) : parse_xy_lines(text, source);
 }
 
 Contour read_curves(const std::string& path, const std::string& hint, const std::string& attribute) {
   refuse_unread_formats(path);
   check_has_attributes(path, attribute);
-  for (const std::string_view extension : {".poly", ".msh"})
-    if (ends_with_extension(path, extension))
-      throw ConfigError(
-          fmt::format("{}: expected a file with the lines of a curve, found '{}'; known are .xy, .geojson "
-                      "and .shp",
-                      path, extension));
+  if (ends_with_extension(path, ".msh"))
+    throw ConfigError(
+        fmt::format("{}: expected a file with the lines of a curve, found '.msh'; known are .xy, .geojson, "
+                    ".poly and .shp",
+                    path));
   if (ends_with_extension(path, ".shp"))
     return read_shapefile_lines(path, hint, attribute);
-  return parse_curves(read_file(path, hint), path, attribute);
+  const std::string text = read_file(path, hint);
+  return is_poly(path) ? parse_poly_lines(text, path, nodes_of(path, text)) : parse_curves(text, path, attribute);
 }
 
 } // namespace trime::contours

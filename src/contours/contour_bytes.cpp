@@ -54,6 +54,7 @@ public:
     visit(contour.rings);
     visit(contour.warnings);
     visit(contour.marker_names);
+    visit(contour.largest_areas);
     visit(contour.features);
     visit(contour.crs);
     visit(contour.is_map);

@@ -40,8 +40,8 @@ constexpr double small_shortage = 0.01;
 constexpr double most_replaced = 4;
 
 // [points expected] A coarse start of a shape with curves inside has at most this many points. Where arcs are shorter
-// than the coarse edges, there are more points than expected; each division multiplies the surplus, and then so many
-// points along the arcs must go that the mesh is irregular there. Measured with 1e6 points: 1000 grains took 13 s with
+// than the coarse edges, there are more points than expected; each division multiplies the surplus. The last stage
+// removes it along the arcs, and the mesh becomes irregular there. Measured with 1e6 points: 1000 grains took 13 s with
 // 1.05 times the expected points and one division, and 29 s with 1.43 times and three; the mean alpha was 1.0107 and
 // 1.0182. 500 discs took 7.1 s with 1.08 times and two divisions, and 10.5 s with 1.26 times and three.
 constexpr double most_crowded = 1.1;

@@ -155,7 +155,7 @@ class DirtyInputs(unittest.TestCase):
         self.assertGreaterEqual(len(READ) + len(REFUSED), 30)
 
     def test_what_is_left_out_is_told(self):
-        for text, message in (("region attributes", r":\d+: regional attributes are ignored"),
+        for text, message in (("region attributes", r":\d+: region points do not change the shape"),
                               ("region attributes", r":11: this vertex lies on no segment"),
                               ("no section of holes", r":7: 1 ring has no hole point inside")):
             row = next(row for row in READ if text in row[0] and row[1] == "a.poly")

@@ -73,8 +73,15 @@ class Mesh:
             self.sharp = {} if self.sharp is None else {name: column[:] for name, column in self.sharp.items()}
             table = file.get("/trime_mpi/regions")
             self.table = {} if table is None else {name: column[:] for name, column in table.items()}
+            self.curve_lengths = self.by_curve(file) if "curves" in file["/Mesh"] else {}
         self.edges = self.interfaces.get("topology", np.zeros((0, 2), int))
         self.areas = areas_of(self.points, self.triangles)
+
+    def by_curve(self, file):
+        """The length of the edges on each curve, by its name."""
+        names = [name.decode() for name in file["/trime_mpi/curves/curve_name"][:]]
+        lengths = by_number(file["/Mesh/curves/values"][:], lengths_of(self.points, file["/Mesh/curves/topology"][:]))
+        return {names[number]: length for number, length in lengths.items()}
 
     def arrays(self):
         return {"points": self.points, "triangles": self.triangles, "region": self.region, **self.interfaces}

@@ -268,6 +268,82 @@ class Regions(RegionsTest):
         self.assertTrue(any(abs(angle - 5.71) < 0.005 for angle in degrees), mesh.sharp)
 
 
+POLY = """8 2 0 1
+1 0 0 1
+2 1 0 1
+3 1 1 1
+4 0 1 1
+5 0.25 0.25 2
+6 0.75 0.25 2
+7 0.75 0.75 2
+8 0.25 0.75 2
+8 1
+1 1 2 11
+2 2 3 12
+3 3 4 13
+4 4 1 14
+5 5 6 20
+6 6 7 20
+7 7 8 20
+8 8 5 21
+0
+2
+1 0.1 0.1 3 -1
+2 {} 7 0.0005
+"""
+
+
+class OfTriangle(RegionsTest):
+    """A .poly file with region points, largest areas and markers."""
+    CONFIG = ("[shape]\ngeometry = plate\n[shape.plate]\ntype = contour\nfile = two.poly\n[region.m]\nfile = two.poly\n"
+              "area_limits = {}\n[curve.line]\nfile = two.poly\n[sizing]\nscale = absolute\nmax_size = 0.06\n")
+
+    def run_poly(self, point="0.5 0.5", limits="true", ranks=1):
+        (self.directory / "two.poly").write_text(POLY.format(point))
+        config = self.directory / "mesh.ini"
+        config.write_text(self.CONFIG.format(limits) +
+                          f"[output]\ndirectory = {self.directory}\nname = mesh\noverwrite = true\n")
+        return run(config, ranks=ranks)
+
+    def test_points_areas_and_markers(self):
+        hashes = set()
+        for ranks in (1, 3):
+            done = self.run_poly(ranks=ranks)
+            report = done.stdout + done.stderr
+            self.assertEqual(done.returncode, 0, report)
+            self.assertNotIn("region points", report)
+            mesh = Mesh(self.directory / "mesh.h5")
+            hashes.add(mesh.points.tobytes() + mesh.triangles.tobytes() + mesh.region.tobytes())
+        self.assertEqual(len(hashes), 1)
+        self.check_areas(mesh, {"m.3": 0.75, "m.7": 0.25})
+        inside = [number for number, name in mesh.names.items() if name == "m.7"]
+        areas = mesh.areas[np.isin(mesh.region, inside)]
+        self.assertTrue(475 <= len(areas) <= 600, len(areas))
+        self.assertLess(areas.max(), 0.001)
+        self.assertLess(len(mesh.areas) - len(areas), 900)
+        rim = by_number(mesh.facet_labels, lengths_of(mesh.points, mesh.facets))
+        self.assertEqual({mesh.parts[label - 1]: round(length, 12) for label, length in rim.items()},
+                         {f"plate.{marker}": 1 for marker in (11, 12, 13, 14)})
+        self.assertEqual({name: round(length, 12) for name, length in mesh.curve_lengths.items()},
+                         {"line.20": 1.5, "line.21": 0.5})
+        judged = subprocess.run([CHECK, self.directory / "mesh.h5"], capture_output=True, text=True, check=False)
+        self.assertEqual(judged.returncode, 0, judged.stdout + judged.stderr)
+
+    def test_areas_need_a_key(self):
+        done = self.run_poly(limits="false")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("'area_limits = true' in [region.m]", done.stdout + done.stderr)
+        mesh = Mesh(self.directory / "mesh.h5")
+        self.assertLess(len(mesh.areas), 900)
+
+    def test_two_points_in_one_face(self):
+        for ranks in (1, 3):
+            done = self.run_poly("0.1 0.9", ranks=ranks)
+            self.assertEqual(done.returncode, 3, done.stdout + done.stderr)
+            self.assertRegex(done.stderr, r"two\.poly:\d+: the region points \(0\.1, 0\.9\) and \(0\.1, 0\.1\)")
+            self.assertFalse((self.directory / "mesh.h5").exists())
+
+
 class BadInput(RegionsTest):
     def test_names_that_do_not_exist(self):
         for geometry, word in (("nowhere", "nowhere"), ("difference(domain, nowhere)", "nowhere"), ("", "geometry")):

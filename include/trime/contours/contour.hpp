@@ -61,8 +61,14 @@ struct Contour {
   std::string source; ///< name used in messages, for example the path
   std::vector<ContourRing> rings;
   std::vector<std::string> warnings; ///< warnings for the user, one sentence each
+  /// The warnings among `warnings` about what a `.poly` file has inside of its rings. They help only if no region or
+  /// curve reads that. to_bytes() leaves them out.
+  std::vector<std::string> inner_warnings{};
   /// Names of the markers 1, 2, ...; empty: markers have no names.
   std::vector<std::string> marker_names{};
+  /// Largest area of a triangle in the polygons of each marker of `marker_names`, as a `.poly` file gives it for its
+  /// regions; infinite: no limit. Empty: the file has no such limits.
+  std::vector<double> largest_areas{};
   std::vector<MapFeature> features{}; ///< features of a map, in the order of the file; empty: the file has no features
   std::string crs{}; ///< name of the reference system of the coordinates, as in the file; empty: unknown
   bool is_map =
@@ -88,8 +94,16 @@ Contour read_contour(const std::string& path, const std::string& hint = "", cons
 Contour parse_contour(std::string_view text, const std::string& source, const std::string& attribute = "",
                       Faults faults = Faults::refuse);
 
-/// @brief Reads the lines of curves inside a shape from a `.xy`, `.geojson`, `.json` or `.shp` file. They are in
-/// Contour::rings, see ContourRing::open: a line that ends where it starts is a ring, as is the border of a polygon.
+/// @brief Reads the polygons of regions inside a shape. In a `.poly` file with region points, the face of the segments
+/// around each point is a polygon, and the different attributes of the points are the markers 1, 2, ... and their
+/// names. Other files are read as by read_contour.
+/// @throws as read_contour; GeometryError also if segments meet where no vertex is, if a region point lies outside of
+/// all faces or in a hole, and if a face has two points
+/// @note Serial.
+Contour read_regions(const std::string& path, const std::string& hint = "", const std::string& attribute = "");
+
+/// @brief Reads the lines of curves inside a shape from a `.xy`, `.geojson`, `.json`, `.poly` or `.shp` file. They are
+/// in Contour::rings, see ContourRing::open: a line that ends where it starts is a ring, as is the border of a polygon.
 /// @param attribute the attribute of map features that divides the lines into several curves, see parse_geojson: the
 /// markers are those of the features
 /// @throws as read_contour, but open lines are not faults
@@ -158,6 +172,15 @@ Contour parse_jigsaw(std::string_view text, const std::string& source, Faults fa
 /// all rings, instead of the lines of a file.
 /// @throws GeometryError under the conditions of parse_xy
 Contour make_contour(const std::vector<std::vector<geometry::Vec2>>& rings, const std::string& source);
+
+/// Reads the polygons around the region points of a `.poly` text, see read_regions; without region points, the rings of
+/// parse_poly.
+Contour parse_poly_regions(std::string_view text, const std::string& source, std::string_view nodes = {});
+
+/// @brief Reads the segments of a `.poly` text as the lines of curves, with their markers. A line ends where other than
+/// two segments of its marker meet.
+/// @throws GeometryError `source:line: ...` for a text that is not in the `.poly` format, or without segments
+Contour parse_poly_lines(std::string_view text, const std::string& source, std::string_view nodes = {});
 
 /// Convert a contour to bytes, and back.
 std::string to_bytes(const Contour& contour);
