@@ -252,6 +252,7 @@ std::vector<std::pair<std::string, contours::Contour>> divided(const std::string
       one.features = contour.features;
       one.crs = contour.crs;
       one.is_map = contour.is_map;
+      one.is_raster = contour.is_raster;
       one.in_degrees = contour.in_degrees;
     }
     contours::ContourRing& copy = all[found->second].second.rings.emplace_back(ring);
@@ -394,11 +395,12 @@ public:
     if (keeps_places_)
       found.add(contour, place);
     add_area_limits(region, contour, place.scale);
-    const bool share_borders = contour.is_map || !contour.marker_names.empty();
+    const bool share_borders = contour.is_map || (!contour.marker_names.empty() && !contour.is_raster);
     for (const auto& [name, polygons] : divided(region.name, contour)) {
       division.regions.push_back({name, {}, static_cast<int>(division.parts.size())});
-      division.parts.push_back(shape::Part::contour(name, polygons, place, frame_,
-                                                    {.dissolve = share_borders, .faults = contours::Faults::refuse}));
+      division.parts.push_back(
+          shape::Part::contour(name, polygons, place, frame_,
+                               {.dissolve = share_borders, .faults = contours::Faults::refuse, .keep_touches = true}));
       for (const std::string& warning : division.parts.back().warnings())
         log_.warning("{}", warning);
     }

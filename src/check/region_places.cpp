@@ -37,8 +37,9 @@ public:
       const std::string section = "region." + name, geometry = config.value(section, "geometry");
       if (!config.value(section, "file").empty()) {
         reason = fmt::format("the polygons of region {} come from a file", name);
+        const std::string file = config.value(section, "file");
         const bool has_values =
-            !config.value(section, "attribute").empty() || config.value(section, "file").ends_with(".poly");
+            !config.value(section, "attribute").empty() || file.ends_with(".poly") || file.ends_with(".asc");
         add_stored(name, has_values, stored);
         continue;
       }

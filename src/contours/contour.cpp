@@ -10,6 +10,7 @@
 #include "trime/core/error.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -222,9 +223,10 @@ void refuse_unread_formats(const std::string& path) {
   for (const std::string_view extension :
        {".kml", ".kmz", ".gpkg", ".dxf", ".svg", ".gml", ".shx", ".dbf", ".zip", ".node"})
     if (ends_with_extension(path, extension))
-      throw ConfigError(fmt::format("{}: expected a contour file of a known type, found '{}'; known are .xy, .geojson, "
-                                    ".poly, .shp or .msh (GDAL reads many formats of maps: ogr2ogr OUT.geojson {})",
-                                    path, extension, path));
+      throw ConfigError(
+          fmt::format("{}: expected a contour file of a known type, found '{}'; known are .xy, .geojson, "
+                      ".poly, .shp, .asc or .msh (GDAL reads many formats of maps: ogr2ogr OUT.geojson {})",
+                      path, extension, path));
 }
 
 bool is_geojson(const std::string& path) {
@@ -263,6 +265,13 @@ bool lacks_vertices(std::string_view text) {
   return false;
 }
 
+/// A raster has a head of words; other texts with this ending are lines 'x y'.
+bool is_grid(const std::string& path, std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  return ends_with_extension(path, ".asc") && first != std::string_view::npos &&
+         std::isalpha(static_cast<unsigned char>(text[first])) != 0;
+}
+
 bool is_poly(const std::string& path) {
   return ends_with_extension(path, ".poly");
 }
@@ -284,6 +293,8 @@ Contour parse_contour(std::string_view text, const std::string& source, const st
   refuse_geojson(text, source);
   if (is_poly(source))
     return parse_poly(text, source, {}, faults);
+  if (is_grid(source, text))
+    return parse_grid(text, source, faults);
   if (ends_with_extension(source, ".msh"))
     return parse_jigsaw(text, source, faults);
   return parse_xy(text, source, faults);
@@ -301,11 +312,13 @@ Contour read_contour(const std::string& path, const std::string& hint, const std
 }
 
 Contour read_regions(const std::string& path, const std::string& hint, const std::string& attribute) {
-  if (!is_poly(path))
+  if (!is_poly(path) && !ends_with_extension(path, ".asc"))
     return read_contour(path, hint, attribute);
   check_has_attributes(path, attribute);
   const std::string text = read_file(path, hint);
-  return parse_poly_regions(text, path, nodes_of(path, text));
+  if (is_grid(path, text))
+    return parse_grid_regions(text, path);
+  return !is_poly(path) ? parse_contour(text, path) : parse_poly_regions(text, path, nodes_of(path, text));
 }
 
 Contour parse_curves(std::string_view text, const std::string& source, const std::string& attribute) {
@@ -319,11 +332,12 @@ Contour parse_curves(std::string_view text, const std::string& source, const std
 Contour read_curves(const std::string& path, const std::string& hint, const std::string& attribute) {
   refuse_unread_formats(path);
   check_has_attributes(path, attribute);
-  if (ends_with_extension(path, ".msh"))
-    throw ConfigError(
-        fmt::format("{}: expected a file with the lines of a curve, found '.msh'; known are .xy, .geojson, "
-                    ".poly and .shp",
-                    path));
+  for (const std::string_view extension : {".msh", ".asc"})
+    if (ends_with_extension(path, extension))
+      throw ConfigError(
+          fmt::format("{}: expected a file with the lines of a curve, found '{}'; known are .xy, .geojson, "
+                      ".poly and .shp",
+                      path, extension));
   if (ends_with_extension(path, ".shp"))
     return read_shapefile_lines(path, hint, attribute);
   const std::string text = read_file(path, hint);

@@ -58,6 +58,7 @@ public:
     visit(contour.features);
     visit(contour.crs);
     visit(contour.is_map);
+    visit(contour.is_raster);
     visit(contour.in_degrees);
     visit(contour.joins_date_line);
     visit(contour.faults);

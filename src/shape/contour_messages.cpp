@@ -143,7 +143,7 @@ contours::Fault ContourMessages::meeting(std::span<const LatticeRing> rings, con
 
 void ContourMessages::tell_pieces(const Polygon& polygon, std::span<const LatticeRing> rings,
                                   std::vector<std::string>& warnings) const {
-  if (contour_.is_map)
+  if (contour_.is_map || contour_.is_raster)
     return;
   const std::span<const Segment> segments = polygon.grid.segments();
   std::vector<int> starts; // lines of the rings that are not holes

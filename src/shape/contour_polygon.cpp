@@ -75,7 +75,8 @@ public:
     SegmentGrid grid(segments_of(rings_));
     const std::vector<int> markers = markers_of_segments();
     const SegmentGrid given = markers.empty() ? SegmentGrid{} : grid;
-    if (const std::vector<SegmentPair> meetings = find_meetings(rings_, grid); !meetings.empty())
+    const bool keeps_touches = contour_.is_raster && touches_.keep_touches;
+    if (const std::vector<SegmentPair> meetings = find_meetings(rings_, grid); !meetings.empty() && !keeps_touches)
       separate(meetings, grid, warnings);
     check_faults();
     contours::tell_repaired(faults_, contour_.source, warnings);

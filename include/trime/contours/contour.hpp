@@ -73,14 +73,15 @@ struct Contour {
   std::string crs{}; ///< name of the reference system of the coordinates, as in the file; empty: unknown
   bool is_map =
       false; ///< true if the rings come from a map: there may be several polygons, and coordinates may be degrees
+  bool is_raster = false;       ///< true if the rings run along the sides of cells; then they may meet in vertices
   bool in_degrees = false;      ///< true if ContourRing::in_file holds longitudes and latitudes
   bool joins_date_line = false; ///< true if lines that end at longitudes 180 and -180 were joined, in degrees
   FaultList faults{};           ///< faults that the reader has found; what is faulty is not in `rings`
 };
 
-/// @brief Reads the rings of a file. The ending of its name decides the format: `.poly` (Triangle), `.shp` (ESRI),
-/// `.msh` (JIGSAW), `.geojson` or `.json`; any other file is read as `.xy` text. With a shapefile, NAME.shx is read
-/// too, and NAME.prj if it exists. If a `.poly` file has no vertices, they are read from NAME.node.
+/// @brief Reads the rings of a file. The ending of its name decides the format: `.poly` (Triangle), `.shp` and
+/// `.asc` (ESRI), `.msh` (JIGSAW), `.geojson` or `.json`; any other file is read as `.xy` text. With a shapefile,
+/// NAME.shx is read too, and NAME.prj if it exists. If a `.poly` file has no vertices, they are read from NAME.node.
 /// @param hint text that ends the error message if the file cannot be opened
 /// @param attribute the attribute of map features that names their boundary, see parse_geojson; empty: no attribute
 /// @param faults what happens if rings of the file have faults. A text that cannot be read is always an error
@@ -96,7 +97,7 @@ Contour parse_contour(std::string_view text, const std::string& source, const st
 
 /// @brief Reads the polygons of regions inside a shape. In a `.poly` file with region points, the face of the segments
 /// around each point is a polygon, and the different attributes of the points are the markers 1, 2, ... and their
-/// names. Other files are read as by read_contour.
+/// names. In a raster (`.asc`), each label is a polygon. Other files are read as by read_contour.
 /// @throws as read_contour; GeometryError also if segments meet where no vertex is, if a region point lies outside of
 /// all faces or in a hole, and if a face has two points
 /// @note Serial.
@@ -161,6 +162,16 @@ Contour parse_geojson(std::string_view text, const std::string& source, const st
 /// rings
 Contour parse_poly(std::string_view text, const std::string& source, std::string_view nodes = {},
                    Faults faults = Faults::refuse);
+
+/// @brief Reads a raster in the text format of ESRI. The rings enclose all cells with data.
+/// @throws GeometryError `source:line: ...` for any other text, for more than 2^26 cells, and if no cell has data
+Contour parse_grid(std::string_view text, const std::string& source, Faults faults = Faults::refuse);
+
+/// @brief Reads a raster of labels, which are integers. The cells of each label are a polygon; the labels in ascending
+/// order are the markers 1, 2, ... and their names. Where cells of one label meet in a corner only, rings touch there.
+/// @throws as parse_grid; GeometryError also for values that are not integers, and for more than 10000 labels
+/// Cost: O(cells).
+Contour parse_grid_regions(std::string_view text, const std::string& source);
 
 /// @brief Reads rings from the edges (`edge2`) of a two-dimensional mesh or geometry file of JIGSAW; their tags are the
 /// markers.
