@@ -154,7 +154,8 @@ std::vector<std::int64_t> edges_of_parts(const mesh::DistributedMesh& mesh, std:
                                          const comm::Communicator& comm) {
   std::vector<std::int64_t> edges(parts);
   for (const std::int32_t part : mesh.facet_parts)
-    ++edges.at(static_cast<std::size_t>(part));
+    if (static_cast<std::size_t>(part) < parts) // the others are sides of split curves
+      ++edges[static_cast<std::size_t>(part)];
   comm.sum(edges);
   return edges;
 }

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <ctime>
 #include <limits>
 #include <numeric>
@@ -20,8 +21,11 @@ namespace {
 /// Names of the parts along a loop, in order, each once: "square" or "square+disc".
 std::string loop_name(const Origin& origin, const polygon::LoopSummary& loop) {
   std::string name;
-  for (const std::int32_t part : loop.parts)
-    name += (name.empty() ? "" : "+") + origin.part_names.at(static_cast<std::size_t>(part));
+  for (const std::int32_t number : loop.parts) { // curves that are split follow the parts
+    const auto part = static_cast<std::size_t>(number);
+    const std::size_t parts = origin.part_names.size();
+    name += (name.empty() ? "" : "+") + (part < parts ? origin.part_names[part] : origin.curve_names.at(part - parts));
+  }
   return name;
 }
 
@@ -296,13 +300,50 @@ io::MetadataGroup interfaces_group(const Origin& origin) {
 
 } // namespace
 
+namespace {
+
+constexpr double no_weir = std::numeric_limits<double>::quiet_NaN();
+
+/// Adds columns to the table of curves if any curve is split.
+void add_kinds(const std::vector<geometry::CurveKind>& kinds, io::MetadataGroup& group) {
+  using Kind = geometry::CurveKind;
+  if (std::ranges::none_of(kinds, &Kind::split))
+    return;
+  group.columns.push_back(column<std::int32_t>("split", kinds, &Kind::split));
+  group.columns.push_back(
+      column<double>("weir_height", kinds, [](const Kind& kind) { return kind.weir_height.value_or(no_weir); }));
+  group.columns.push_back(column<double>("weir_subcritical", kinds, &Kind::weir_subcritical));
+  group.columns.push_back(column<double>("weir_supercritical", kinds, &Kind::weir_supercritical));
+}
+
+} // namespace
+
+std::vector<geometry::CurveKind> curve_kinds(const io::Metadata& metadata) {
+  const io::MetadataGroup* group = io::find_group(metadata, "curves");
+  if (group == nullptr || std::ranges::find(group->columns, "split", &io::Column::name) == group->columns.end())
+    return {};
+  const auto& split = io::column_of<std::int32_t>(metadata, "curves", "split");
+  const auto& heights = io::column_of<double>(metadata, "curves", "weir_height");
+  const auto& subcritical = io::column_of<double>(metadata, "curves", "weir_subcritical");
+  const auto& supercritical = io::column_of<double>(metadata, "curves", "weir_supercritical");
+  std::vector<geometry::CurveKind> kinds;
+  for (std::size_t k = 0; k < std::min({split.size(), heights.size(), subcritical.size(), supercritical.size()}); ++k) {
+    geometry::CurveKind& kind = kinds.emplace_back();
+    kind = {split[k] != 0, std::nullopt, subcritical[k], supercritical[k]};
+    if (!std::isnan(heights[k]))
+      kind.weir_height = heights[k];
+  }
+  return kinds;
+}
+
 io::Metadata with_inner_edges(io::Metadata metadata, const Origin& origin) {
   if (!origin.curve_names.empty()) {
     std::vector<std::int32_t> ids(origin.curve_names.size()), labels(ids);
     std::iota(ids.begin(), ids.end(), 0);
     std::iota(labels.begin(), labels.end(), static_cast<std::int32_t>(origin.part_names.size()) + 1);
-    metadata.groups.push_back(
-        {"curves", {}, {{"curve_id", ids}, {"curve_name", origin.curve_names}, {"label", labels}}});
+    io::MetadataGroup& group = metadata.groups.emplace_back(
+        io::MetadataGroup{"curves", {}, {{"curve_id", ids}, {"curve_name", origin.curve_names}, {"label", labels}}});
+    add_kinds(origin.curve_kinds, group);
   }
   if (origin.regions.any())
     metadata.groups.push_back(interfaces_group(origin));
@@ -356,12 +397,15 @@ geometry::Regions named(geometry::Regions regions, const std::string& geometry) 
 
 Origin origin_of(const shape::RegionShape& shape) {
   const geometry::Boundary& boundary = shape.boundary();
-  return {boundary.part_names,
-          shape.domain().part_markers(),
-          named(shape.domain().regions(), shape.region().text()),
-          {boundary.periods.x, boundary.periods.y},
-          {},
-          shape.domain().curves().names};
+  const geometry::InnerCurves& curves = shape.domain().curves();
+  Origin origin{boundary.part_names,
+                shape.domain().part_markers(),
+                named(shape.domain().regions(), shape.region().text()),
+                {boundary.periods.x, boundary.periods.y},
+                {},
+                curves.names};
+  origin.curve_kinds = curves.kinds;
+  return origin;
 }
 
 io::Metadata describe(const meshing::MeshResult& result, const Origin& origin, const std::string& sizing,

@@ -43,6 +43,8 @@ struct MeshNames {
   std::vector<std::string> regions{};    ///< names of the regions 1, 2, ...
   std::vector<std::string> curves{};     ///< curves inside
   std::vector<std::string> interfaces{}; ///< pairs of regions that touch, such as `rock|soil`
+  /// Curves that are split. The edges on both sides of them are boundary edges with the name of the curve.
+  std::vector<std::string> split_curves{};
 };
 
 /// @brief The part of a mesh on one rank: handover::LocalMesh together with the names of the mesh and the
