@@ -124,7 +124,7 @@ std::vector<PairString> pair_strings(const ExchangeMesh& exchange) {
   std::vector<std::array<GlobalId, 2>> edges = joined<std::array<GlobalId, 2>>(exchange.comm().gather(sides));
   std::sort(edges.begin(), edges.end());
   std::int32_t path = -1;
-  const auto close = [&] { // a path of two pairs has one edge, so it is no ring
+  const auto close = [&] { // a ring has three edges or more
     if (!strings.empty() && strings.back().pairs.size() > 2 &&
         std::binary_search(edges.begin(), edges.end(),
                            std::array{strings.back().pairs.back()[0], strings.back().pairs.front()[0]}))

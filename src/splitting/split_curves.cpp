@@ -14,7 +14,7 @@ namespace {
 
 using Ends = std::array<GlobalId, 2>;
 
-/// Lists of questions about the ends of edges, of which some are points of split curves.
+/// Questions about the ends of edges. Only ends on split curves need an answer of their ranks.
 class EndQuestions {
 public:
   explicit EndQuestions(const SplitEdges& edges) : edges_(edges) {}

@@ -18,10 +18,10 @@ namespace trime::splitting {
 
 /// What the mesh was made of.
 struct SplitInput {
-  const std::vector<geometry::CurveKind>& kinds;  ///< of the curves, by their numbers
+  const std::vector<geometry::CurveKind>& kinds;  ///< kinds of the curves, by their numbers
   std::int32_t parts;                             ///< number of parts of the shape
   const sizing::SizeField& asked;                 ///< the size that is stored for facets
-  const std::vector<polygon::LoopSummary>& loops; ///< of the boundary, before the split
+  const std::vector<polygon::LoopSummary>& loops; ///< loops of the boundary before the split
 };
 
 /// Returns whether any curve is to be split.

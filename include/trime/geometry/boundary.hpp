@@ -101,7 +101,7 @@ struct CurveKind {
   /// The curve is a crack or a wall: the points on it are doubled, and both of its sides are boundary edges of the
   /// mesh.
   bool split = false;
-  /// Heights and coefficients of a weir in formats of ocean models. Without a height the curve is no weir.
+  /// Heights and coefficients of a weir in formats of ocean models. Curves without a height are not weirs.
   std::optional<double> weir_height{};
   double weir_subcritical = 1, weir_supercritical = 1;
 

@@ -191,8 +191,8 @@ class Mesh:
 
     @functools.cached_property
     def boundaries(self):
-        """The Boundary of each part of the shape that has an edge, by the name of the part, and of each curve that is
-        split, with the edges on both of its sides."""
+        """The Boundary of each part of the shape that has an edge, by the name of the part. Curves that are split have
+        one, too, with the edges on both of their sides."""
         found, names = {}, dict(self.parts)
         names.update(enumerate(self.tables.get("curves", {}).get("curve_name", ()), len(names)))
         for number, rows in rows_by_number(self.facet_parts).items():
@@ -323,10 +323,11 @@ def mapped(dataset):
     return np.memmap(dataset.file.filename, dataset.dtype, "c", offset, dataset.shape).view(np.ndarray)
 
 
+# Arrays of /Mesh, by member.
 INNER_EDGES = {"curves": {"curve_edges": "topology", "curve_numbers": "values"},
                "interfaces": {"interface_edges": "topology", "interface_regions": "regions",
                               "interface_pairs": "values", "interface_curves": "curves"},
-               "splits": {"split_pairs": "pairs", "split_curves": "curves", "split_paths": "paths"}}  # arrays of /Mesh, by member
+               "splits": {"split_pairs": "pairs", "split_curves": "curves", "split_paths": "paths"}}
 
 
 def read_open(file, path, take):
