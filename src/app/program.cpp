@@ -351,7 +351,8 @@ ExitCode MeshRun::run() {
     io::write_report_file(job_.line.report, describe_run(provenance, result, sizes, measured),
                           {static_cast<int>(exit_code(result)), files.paths}, job_.comm);
   keeper_.remove_all();
-  const std::vector<std::int64_t> edges = edges_of_parts(result.mesh, boundary().part_names.size(), job_.comm);
+  const std::vector<std::int64_t> edges =
+      edges_of_parts(result.mesh, boundary().part_names.size() + input_.domain().curves().names.size(), job_.comm);
   if (job_.options.log_level <= LogLevel::info)
     job_.log.info("{}", run_report(result, sizes, measured, files, input_.normalized));
   else

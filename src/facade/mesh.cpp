@@ -79,6 +79,15 @@ std::vector<InnerEdge> LocalMesh::interfaces(const std::string& name) const {
   return found;
 }
 
+std::vector<std::array<GlobalId, 2>> LocalMesh::split_pairs(const std::string& name) const {
+  const std::int32_t curve = number_of(name, names_.curves, "curve");
+  std::vector<std::array<GlobalId, 2>> found;
+  for (std::size_t k = 0; k < arrays_.split_pairs.size(); ++k)
+    if (arrays_.split_curves[k] == curve)
+      found.push_back(arrays_.split_pairs[k]);
+  return found;
+}
+
 void LocalMesh::update_ghosts(std::span<double> values, int components) const {
   handover::update_ghosts(*communicator_, arrays_, values, components);
 }

@@ -30,14 +30,7 @@ int Sectors::owner(GlobalId point) const { // ranks without points start where t
 
 /// Sends each triangle at a split point to the rank that holds the point.
 void Sectors::find_corners() {
-  std::vector<char> is_split(mesh_.points.size() + mesh_.foreign.size(), 0); // by local vertex
-  const GlobalId first = mesh_.point_slab.first, end = first + std::ssize(mesh_.points);
-  for (const GlobalId id : edges_.points)
-    if (id >= first && id < end)
-      is_split[static_cast<std::size_t>(id - first)] = 1;
-    else if (const auto found = std::lower_bound(mesh_.foreign.begin(), mesh_.foreign.end(), id);
-             found != mesh_.foreign.end() && *found == id)
-      is_split[mesh_.points.size() + static_cast<std::size_t>(found - mesh_.foreign.begin())] = 1;
+  const std::vector<char> is_split = split_vertices(mesh_, edges_);
   comm::Outbox<Corner> away;
   for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k)

@@ -129,21 +129,25 @@ private:
 
   /// Vertices with another name stay in their order, since the copies of a point have no other point among them.
   std::vector<std::array<GlobalId, 3>> renamed_triangles() const {
-    std::vector<std::array<GlobalId, 3>> triangles = mesh::global_triangles(mesh_);
+    const std::vector<char> is_split = split_vertices(mesh_, edges_);
+    std::vector<GlobalId> first_copy(is_split.size()); // by local vertex
+    for (std::size_t v = 0; v < first_copy.size(); ++v)
+      first_copy[v] = sectors_.new_id(mesh_.global_id(static_cast<LocalIndex>(v)));
+    std::vector<std::array<GlobalId, 3>> triangles(mesh_.triangles.size());
     std::vector<Question> questions;
     std::vector<GlobalId*> asked;
-    for (std::array<GlobalId, 3>& triangle : triangles) {
-      const std::array<GlobalId, 3> old = triangle;
-      for (std::size_t k = 0; k < 3; ++k)
-        if (edges_.has_point(old[k])) {
-          questions.push_back({old[k], old[(k + 1) % 3], 0});
-          asked.push_back(&triangle[k]);
-        } else
-          triangle[k] = sectors_.new_id(old[k]);
-    }
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const LocalIndex vertex = mesh_.triangles[t][k];
+        triangles[t][k] = first_copy[at(vertex)];
+        if (is_split[at(vertex)] != 0) {
+          questions.push_back({mesh_.global_id(vertex), mesh_.global_id(mesh_.triangles[t][(k + 1) % 3]), 0});
+          asked.push_back(&triangles[t][k]);
+        }
+      }
     const std::vector<std::int32_t> copies = sectors_.answer(questions);
     for (std::size_t k = 0; k < copies.size(); ++k)
-      *asked[k] = sectors_.new_id(*asked[k], copies[k]);
+      *asked[k] += copies[k];
     return triangles;
   }
 

@@ -11,6 +11,18 @@ bool SplitEdges::has_point(GlobalId id) const {
   return std::binary_search(points.begin(), points.end(), id);
 }
 
+std::vector<char> split_vertices(const mesh::DistributedMesh& mesh, const SplitEdges& edges) {
+  std::vector<char> is_split(mesh.points.size() + mesh.foreign.size(), 0);
+  const GlobalId first = mesh.point_slab.first, end = first + std::ssize(mesh.points);
+  for (const GlobalId id : edges.points)
+    if (id >= first && id < end)
+      is_split[static_cast<std::size_t>(id - first)] = 1;
+    else if (const auto found = std::lower_bound(mesh.foreign.begin(), mesh.foreign.end(), id);
+             found != mesh.foreign.end() && *found == id)
+      is_split[mesh.points.size() + static_cast<std::size_t>(found - mesh.foreign.begin())] = 1;
+  return is_split;
+}
+
 SplitEdges split_edges(const comm::Communicator& comm, const mesh::DistributedMesh& mesh,
                        const std::vector<geometry::CurveKind>& kinds) {
   std::vector<SplitEdge> here;

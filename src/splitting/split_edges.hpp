@@ -29,6 +29,10 @@ struct SplitEdges {
   bool has_point(GlobalId id) const;
 };
 
+/// Returns by local vertex whether it is one of the points, for the points of this rank and then for
+/// DistributedMesh::foreign.
+std::vector<char> split_vertices(const mesh::DistributedMesh& mesh, const SplitEdges& edges);
+
 /// Lists the edges on curves that are split. Cost: O(edges log edges). Collective.
 SplitEdges split_edges(const comm::Communicator& comm, const mesh::DistributedMesh& mesh,
                        const std::vector<geometry::CurveKind>& kinds);

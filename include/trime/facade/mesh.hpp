@@ -75,6 +75,10 @@ public:
   /// @throws ConfigError for an unknown name; the message lists the known names
   std::vector<InnerEdge> curve_edges(const std::string& name) const;
   std::vector<InnerEdge> interfaces(const std::string& name) const;
+  /// @brief Returns the pairs of points on the two sides of a split curve with this name, by their global ids: those of
+  /// which this rank owns a point. The boundary edges on both sides are facets() of the same name. Not collective.
+  /// @throws ConfigError for an unknown name; the message lists the known names
+  std::vector<std::array<GlobalId, 2>> split_pairs(const std::string& name) const;
   /// Returns the number of the region of a local triangle, from 1.
   std::int32_t region(LocalIndex triangle) const { return arrays_.regions.empty() ? 1 : arrays_.regions[at(triangle)]; }
 
