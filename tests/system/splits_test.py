@@ -6,6 +6,7 @@ fort14, equal bits on any number of ranks, and that trime_check finds damaged pa
 import math
 import os
 import pathlib
+import random
 import re
 import shutil
 import subprocess
@@ -21,7 +22,7 @@ CHECK = os.environ.get("TRIME_CHECK", str(pathlib.Path(PROGRAM).parent / "src" /
 BASE = """{shape}
 {curves}
 [meshing]
-points = 2000
+points = {points}
 [output]
 directory = {directory}
 name = mesh
@@ -115,9 +116,10 @@ class Splits(unittest.TestCase):
         text = "\n\n".join("\n".join(f"{x!r} {y!r}" for x, y in line) for line in lines)
         (self.directory / f"{name}.xy").write_text(text + "\n")
 
-    def run_config(self, curves, shape=SQUARE, formats="vtkhdf xdmf", ranks=1, threads=1):
+    def run_config(self, curves, shape=SQUARE, formats="vtkhdf xdmf", points=2000, ranks=1, threads=1):
         config = self.directory / "mesh.ini"
-        config.write_text(BASE.format(shape=shape, curves=curves, directory=self.directory, formats=formats))
+        config.write_text(BASE.format(shape=shape, curves=curves, points=points, directory=self.directory,
+                                      formats=formats))
         return run(config, ranks=ranks, threads=threads)
 
     def mesh(self, curves, **options):
@@ -304,6 +306,44 @@ class Splits(unittest.TestCase):
         self.assertEqual({count for count in mesh.copies().values()}, {2})
         self.assertIn((1.0, 0.6), mesh.copies())
         self.assertNotIn((0.2, 0.3), mesh.copies())
+
+    def test_networks(self):
+        """Segments from a seed at all angles, around a hole: some are split and some are not, some leave the shape."""
+        shape = ("[shape]\ngeometry = difference(domain, hole)\n"
+                 "[shape.hole]\ntype = circle\ncenter = 0.5 0.5\nradius = 0.1")
+        for seed in (1, 2):
+            numbers = random.Random(seed)
+            for name, count in (("a", 6), ("b", 6), ("c", 3)):
+                lines = []
+                for _ in range(count):
+                    x, y, angle, length = (numbers.uniform(0.05, 0.95), numbers.uniform(0.05, 0.95),
+                                           numbers.uniform(0, 2 * math.pi), numbers.uniform(0.05, 0.5))
+                    lines.append([(x, y), (x + length * math.cos(angle), y + length * math.sin(angle))])
+                self.write(name, *lines)
+            curves = split("a", "clip = true") + split("b", "clip = true") + section("c", "clip = true")
+            made = [self.mesh(curves, shape=shape, points=6000, ranks=ranks) for ranks in (1, 3)]
+            self.assertEqual(made[0].bits, made[1].bits)
+            self.assertGreater(len(made[0].pairs), 50)
+            self.assertEqual(made[0].euler(), 2 * made[0].kinds.count("outer") - len(made[0].kinds))
+
+    def test_wall_on_a_whole_interface(self):
+        """A wall from rim to rim on the only interface: the regions no longer share an edge."""
+        shape = (SQUARE + "\nrest = low\n[region.high]\ngeometry = above\n"
+                 "[shape.above]\ntype = rectangle\nx_min = 0\ny_min = 0.5\nx_max = 1\ny_max = 1")
+        self.write("wall", [(0, 0.5), (1, 0.5)])
+        mesh = self.mesh(split("wall"), shape=shape, ranks=2, formats="vtkhdf xdmf gmsh 2dm")
+        self.assertEqual((len(mesh.interfaces), mesh.components, mesh.euler()), (0, 2, 2))
+        self.assertAlmostEqual(mesh.length("wall"), 2, delta=TOLERANCE)
+        import meshio  # pylint: disable=import-outside-toplevel
+        read = meshio.read(self.directory / "mesh.msh")
+        of_wall = [edge for block, tags in zip(read.cells, read.cell_data["gmsh:physical"]) if block.type == "line"
+                   for edge, tag in zip(block.data.tolist(), tags) if tag == read.field_data["wall"][0]]
+        self.assertEqual(sorted(of_wall), sorted(mesh.sides("wall").tolist()))
+        text = (self.directory / "mesh.2dm").read_text()
+        self.assertIn("node string 2: wall", text)
+        ends = [line.split() for line in text.splitlines() if line.startswith("NS") and line.split()[-1] == "2"
+                or line.startswith(" ") and "-" in line and line.split()[-1] == "2"]
+        self.assertEqual(len(ends), 2)  # a string on each side
 
     def test_restart(self):
         """A run that was stopped goes on to the same mesh."""
