@@ -75,8 +75,9 @@ public:
   /// @throws ConfigError for an unknown name; the message lists the known names
   std::vector<InnerEdge> curve_edges(const std::string& name) const;
   std::vector<InnerEdge> interfaces(const std::string& name) const;
-  /// @brief Returns the pairs of points on the two sides of a split curve with this name, by their global ids: those of
-  /// which this rank owns a point. The boundary edges on both sides are facets() of the same name. Not collective.
+  /// @brief Returns the pairs of points on the two sides of a split curve with this name, by their global ids. This
+  /// rank owns at least one point of each. The boundary edges on both sides are facets() of the same name. Not
+  /// collective.
   /// @throws ConfigError for an unknown name; the message lists the known names
   std::vector<std::array<GlobalId, 2>> split_pairs(const std::string& name) const;
   /// Returns the number of the region of a local triangle, from 1.
@@ -164,7 +165,8 @@ public:
 
   /// Returns the names of the boundary, the regions, the curves and the interfaces.
   MeshNames names() const;
-  /// Returns the names that facets() accepts, in the order of mesh::DistributedMesh::facet_parts.
+  /// Returns the names of the parts of the boundary, in the order of mesh::DistributedMesh::facet_parts. The function
+  /// facets() accepts these names and those of split curves.
   const std::vector<std::string>& facet_names() const;
   /// @brief Returns the boundary edges with this name on this rank, as pairs of global point ids; the interior lies on
   /// the left of first -> second. Cost: O(facets on this rank). Not collective.
