@@ -10,13 +10,17 @@ import random
 import re
 import shutil
 import subprocess
+import sys
 import unittest
 from collections import Counter
 
 import h5py
 import numpy as np
 
-from trime_run import PROGRAM, Workspace, run
+from trime_run import PROGRAM, ROOT, Workspace, run
+
+sys.path.insert(0, str(ROOT / "scripts" / "python"))
+import trime_mpi  # noqa: E402  (found by the line above)
 
 CHECK = os.environ.get("TRIME_CHECK", str(pathlib.Path(PROGRAM).parent / "src" / "check" / "trime_check"))
 BASE = """{shape}
@@ -179,6 +183,10 @@ class Splits(unittest.TestCase):
         self.assertFalse(set(mesh.pairs[:, 1].tolist()) & above)
         self.check_weir(mesh, edges - 1)
         self.check_medit(mesh)
+        read = trime_mpi.read(self.directory / "mesh.h5")
+        self.assertEqual(read.boundaries["crack"].facets.tolist(), sides.tolist())
+        self.assertEqual(read.split_pairs.tolist(), mesh.pairs.tolist())
+        self.assertEqual((set(read.split_curves.tolist()), set(read.split_paths.tolist())), ({0}, {0}))
 
     def check_weir(self, mesh, rows):
         """One boundary of type 24, and as many points on land as the file says."""
