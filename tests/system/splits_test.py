@@ -130,6 +130,7 @@ class Splits(unittest.TestCase):
         """Makes a mesh, and checks what holds for any mesh with split curves."""
         done = self.run_config(curves, **options)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.report = done.stdout
         judged = subprocess.run([CHECK, self.directory / "mesh.h5"], capture_output=True, text=True, check=False)
         self.assertEqual(judged.returncode, 0, judged.stdout)
         mesh = Mesh(self.directory / "mesh.h5")
@@ -181,6 +182,7 @@ class Splits(unittest.TestCase):
         above = {v for t in mesh.triangles.tolist() if mesh.points[t][:, 1].max() > 0.5 for v in t}
         self.assertTrue(set(mesh.pairs[:, 0].tolist()) <= above)
         self.assertFalse(set(mesh.pairs[:, 1].tolist()) & above)
+        self.assertIn("land boundary: domain; weirs: crack", self.report)
         self.check_weir(mesh, edges - 1)
         self.check_medit(mesh)
         read = trime_mpi.read(self.directory / "mesh.h5")
