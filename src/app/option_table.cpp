@@ -230,7 +230,8 @@ const Option table[] = {
      .key = "weir_height",
      .fallback = "none",
      .choices = "none",
-     .meaning = "height of a curve that is split and a weir in the format fort14; none: it is no weir there"},
+     .meaning =
+         "height of a split curve as a weir in the format fort14; none: it is a wall there, with land on both sides"},
     {.section = "curve.NAME",
      .key = "weir_subcritical",
      .fallback = "1",
