@@ -40,6 +40,21 @@ void read_file_of(const Settings& settings, const std::string& section, const fs
     read.attribute = attribute;
 }
 
+/// Whether a curve is split, and a weir, which must be split.
+geometry::CurveKind kind_of(const Settings& settings, const std::string& section, Diagnostics& problems) {
+  geometry::CurveKind kind;
+  kind.split = settings.boolean(section, "split");
+  kind.weir_height = settings.optional_number(section, "weir_height");
+  kind.weir_subcritical = settings.number(section, "weir_subcritical");
+  kind.weir_supercritical = settings.number(section, "weir_supercritical");
+  if (kind.weir_height && !kind.split)
+    problems.add(settings.line(section, "weir_height"),
+                 fmt::format("'weir_height' in [{}]: expected 'split = true' in the same section, since a weir has "
+                             "points on both sides",
+                             section));
+  return kind;
+}
+
 CurveOptions curve_of(const Settings& settings, const std::string& name, const fs::path& directory,
                       const RunOptions& options, Diagnostics& problems) {
   const std::string section = "curve." + name;
@@ -47,6 +62,7 @@ CurveOptions curve_of(const Settings& settings, const std::string& name, const f
   curve.name = name;
   read_file_of(settings, section, directory, curve);
   curve.clip = settings.boolean(section, "clip");
+  curve.kind = kind_of(settings, section, problems);
   curve.normalize_with = normalizing_contour(settings, section, options, problems);
   return curve;
 }

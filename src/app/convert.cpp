@@ -3,6 +3,7 @@
 
 #include "core/quoted.hpp"
 #include "formats/output_files.hpp"
+#include "record/groups.hpp"
 #include "trime/core/error.hpp"
 #include "trime/io/mesh_file.hpp"
 
@@ -30,6 +31,7 @@ formats::Names names_of(const Metadata& metadata) {
                        io::interface_names(metadata),
                        {io::attribute_of<double>(metadata, "period_x"), io::attribute_of<double>(metadata, "period_y")},
                        value_text(metadata, "crs")};
+  names.curve_kinds = record::curve_kinds(metadata);
   for (const io::Attribute& attribute : metadata.attributes)
     if (const auto* text = std::get_if<std::string>(&attribute.value); text && attribute.name == "open_boundary") {
       std::istringstream stream(*text);

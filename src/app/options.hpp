@@ -56,6 +56,7 @@ struct CurveOptions {
   bool file_is_relative = false; ///< true if the user gave the path relative to the config file
   std::string attribute;         ///< attribute of map features that divides the curve; empty: no attribute
   bool clip = false;             ///< what lies outside of the shape is left out
+  geometry::CurveKind kind{};    ///< whether it is split, and a weir
   std::string normalize_with;    ///< name of the contour whose normalisation is applied; empty: no normalisation
 };
 

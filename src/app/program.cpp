@@ -167,6 +167,7 @@ formats::SeriesOptions series_options(const Job& job, const ShapeInput& input) {
   const geometry::Regions regions = record::named(input.domain().regions(), job.options.geometry);
   names.regions = regions.names;
   names.curves = input.domain().curves().names;
+  names.curve_kinds = input.domain().curves().kinds;
   for (std::size_t pair = 0; pair < regions.pairs.size(); ++pair)
     names.interfaces.push_back(regions.pair_name(pair));
   names.period = {boundary.periods.x, boundary.periods.y};
@@ -339,7 +340,8 @@ ExitCode MeshRun::run() {
                                {boundary().periods.x, boundary().periods.y},
                                input_.map.crs,
                                input_.domain().curves().names,
-                               job_.places.ring_lines(boundary())}};
+                               job_.places.ring_lines(boundary()),
+                               input_.domain().curves().kinds}};
   const meshing::MeshResult result = make_mesh(provenance);
   const SizeSummary sizes = summarize_size(size_.description, result.mesh, job_.comm);
   keeper_.go_to_the_end();
@@ -349,7 +351,8 @@ ExitCode MeshRun::run() {
     io::write_report_file(job_.line.report, describe_run(provenance, result, sizes, measured),
                           {static_cast<int>(exit_code(result)), files.paths}, job_.comm);
   keeper_.remove_all();
-  const std::vector<std::int64_t> edges = edges_of_parts(result.mesh, boundary().part_names.size(), job_.comm);
+  const std::vector<std::int64_t> edges =
+      edges_of_parts(result.mesh, boundary().part_names.size() + input_.domain().curves().names.size(), job_.comm);
   if (job_.options.log_level <= LogLevel::info)
     job_.log.info("{}", run_report(result, sizes, measured, files, input_.normalized));
   else

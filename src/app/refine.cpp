@@ -52,6 +52,17 @@ void refuse_same_file(const std::string& from, const std::string& to, const comm
   });
 }
 
+/// Reads the mesh. @throws ConfigError on all ranks if curves of it are split
+mesh::DistributedMesh unsplit_mesh(const std::string& path, const Metadata& metadata, const comm::Communicator& comm) {
+  mesh::DistributedMesh mesh = io::read_mesh(path, metadata, comm);
+  if (mesh.split_slab.total > 0)
+    throw ConfigError(fmt::format("{} has curves with split = true: {} pairs of its points lie at the same places, and "
+                                  "'trime_mpi refine' cannot keep them together; refine a mesh of the same config "
+                                  "without split, or make a mesh with more points",
+                                  path, mesh.split_slab.total));
+  return mesh;
+}
+
 /// Returns the largest power of two that divides a coordinate; infinity for 0.
 double step_of(double coordinate) {
   if (coordinate == 0)
@@ -130,7 +141,7 @@ ExitCode refine(const CommandLine& line, io::RunFiles* files, const comm::Commun
   refinement::Refined refined;
   const StoredShape shape = stored_shape(metadata, from, comm);
   {
-    const mesh::DistributedMesh mesh = io::read_mesh(from, metadata, comm);
+    const mesh::DistributedMesh mesh = unsplit_mesh(from, metadata, comm);
     refinement::Surroundings surroundings{
         shape.input ? shape.input->domain().frame() : frame_around(mesh, metadata, comm), shape.curves()};
     take_promises(metadata, surroundings);

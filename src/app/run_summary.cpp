@@ -97,12 +97,15 @@ std::string boundary_text(const boundary::FeatureReport& report) {
   return text;
 }
 
-std::string names_text(const geometry::Boundary& boundary, const std::vector<std::int64_t>& edges) {
+/// @param edges by part, then by curve: those on both sides if it is split
+std::string names_text(const record::Origin& origin, const std::vector<std::int64_t>& edges) {
+  std::vector<std::string> names = origin.part_names;
+  names.insert(names.end(), origin.curve_names.begin(), origin.curve_names.end());
   std::string text;
   std::size_t named = 0, all = 0;
   for (std::size_t part = 0; part < edges.size(); ++part)
     if (edges[part] > 0 && ++all <= most_names)
-      text += fmt::format("{}{} {}", named++ == 0 ? "edges of " : ", ", boundary.part_names.at(part), edges[part]);
+      text += fmt::format("{}{} {}", named++ == 0 ? "edges of " : ", ", names.at(part), edges[part]);
   return all == named ? text : text + fmt::format(", and {} more names", all - named);
 }
 
@@ -167,7 +170,7 @@ std::string run_summary(const RunFacts& facts) {
       line("Mesh", mesh_text(result)) + line("Size", size_text(facts.size, facts.result.quality.growth)) +
       line("Quality", quality_text(result.quality)) + line("Shortest", shortest_text(result.quality)) +
       line("Boundary", boundary_text(result.features)) +
-      line("Names", names_text(facts.provenance.boundary, facts.part_edges)) +
+      line("Names", names_text(facts.provenance.origin, facts.part_edges)) +
       line("Regions", regions_text(facts.provenance.origin.regions.names, result.regions)) +
       line("Sweeps", fmt::format("{}: {}", sweeps, sweep::to_string(result.stop_reason))) +
       line("Checks", checks_text(result.checks)) + line("Mesh hash", fmt::format("{:016x}", result.mesh.hash)) +

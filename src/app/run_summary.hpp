@@ -21,11 +21,12 @@ struct RunFacts {
   const Measurements& measured;
   const io::WrittenFiles& files; ///< the files of the mesh; empty if the run writes no mesh
   const std::vector<std::int64_t>&
-      part_edges; ///< number of mesh edges on each part of the boundary, see edges_of_parts
+      part_edges; ///< number of boundary edges of each part of the shape and each curve, see edges_of_parts
 };
 
-/// @brief Counts the boundary edges of the whole mesh for each part of the shape.
-/// @param parts number of parts of the shape
+/// @brief Counts the boundary edges of the whole mesh for each part of the shape, and then for each curve: those on
+/// both sides of a split curve.
+/// @param parts number of parts and curves
 /// @note Collective.
 std::vector<std::int64_t> edges_of_parts(const mesh::DistributedMesh& mesh, std::size_t parts,
                                          const comm::Communicator& comm);

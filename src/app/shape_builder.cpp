@@ -235,6 +235,7 @@ void add_lines(const CurveOptions& options, const contours::Contour& contour, co
   for (std::size_t k = 0; k < names.size(); ++k) {
     parts.curves.push_back(shape::Part::curve(names[k], std::move(lines[k]), frame));
     parts.clip.push_back(options.clip ? 1 : 0);
+    parts.kinds.push_back(options.kind);
   }
 }
 

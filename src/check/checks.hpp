@@ -36,9 +36,19 @@ bool check_arrays(const StoredFile& file, const Mesh& mesh, Report& report);
 /// Checks orientation, edges, Delaunay property, loops of facets, Euler characteristic, area and tags.
 Counted check_surface(const StoredFile& file, const Mesh& mesh, Report& report);
 
+/// @brief Makes the same checks, except for tags, of a mesh that was joined along its split curves, see joined_mesh.
+/// The names of the checks begin with `joined_`.
+Counted check_joined_surface(const StoredFile& file, const Mesh& joined, Report& report);
+
+/// Checks the pairs of points on curves that are split, and the boundary edges on both sides of them.
+void check_splits(const StoredFile& file, const Mesh& mesh, Report& report);
+
 /// Checks the edges on curves inside the shape, if the file has any: each is an edge of two triangles, and no vertex
-/// lies in its diametral disc. Checks the list of all edges with labels.
+/// lies in its diametral disc. @param mesh joined along its split curves
 void check_curves(const StoredFile& file, const Mesh& mesh, Report& report);
+
+/// Checks the list of all edges with labels, if the file has one.
+void check_lines(const StoredFile& file, const Mesh& mesh, Report& report);
 
 /// @brief Checks the regions of triangles and the interfaces between them, if the file has more than one region. The
 /// edges between regions are listed once each, with the lower region on the left. The area inside the border of each
@@ -51,8 +61,15 @@ void check_sizes(const StoredFile& file, const Mesh& mesh, Report& report);
 /// Checks the tables and attributes of the mesh: labels, kinds and names of loops, counts, and format version.
 void check_tables(const StoredFile& file, const Mesh& mesh, const Counted& counted, Report& report);
 
-/// Checks alpha, beta, sizes, the summary of the quality, and the stored certificate.
-void check_summary(const StoredFile& file, const Mesh& mesh, const Counted& counted, Report& report);
+/// A mesh with what was counted in it.
+struct CountedMesh {
+  const Mesh& mesh;
+  const Counted& counted;
+};
+
+/// @brief Checks alpha, beta, sizes, the summary of the quality, and the stored certificate.
+/// @param whole the mesh before its curves were split, which the certificate describes
+void check_summary(const StoredFile& file, const CountedMesh& mesh, const CountedMesh& whole, Report& report);
 
 /// @brief Checks corners, fixed points and boundary vertices against the shape of a config.
 /// @param config path of a config file; if empty, the config that is stored in the mesh file is used

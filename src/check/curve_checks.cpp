@@ -57,8 +57,8 @@ private:
   std::map<Facet, int> triangles_, listed_;
 };
 
-/// The list of all labelled edges against the lists of facets, edges on curves and interfaces. Older files have none.
-void check_lines(const Mesh& mesh, Report& report) {
+/// The list of all labelled edges against the lists of facets, edges on curves and interfaces.
+void compare_lines(const Mesh& mesh, Report& report) {
   std::vector<Facet> edges = mesh.facets;
   std::vector<std::int64_t> labels = mesh.facet_labels;
   edges.insert(edges.end(), mesh.curve_edges.begin(), mesh.curve_edges.end());
@@ -81,8 +81,11 @@ void check_lines(const Mesh& mesh, Report& report) {
 void check_curves(const StoredFile& file, const Mesh& mesh, Report& report) {
   if (!mesh.curve_edges.empty())
     CurveChecks(file, mesh, report).run();
-  if (file.has("/Mesh/lines"))
-    check_lines(mesh, report);
+}
+
+void check_lines(const StoredFile& file, const Mesh& mesh, Report& report) {
+  if (file.has("/Mesh/lines")) // older files have none
+    compare_lines(mesh, report);
 }
 
 } // namespace trime_check

@@ -52,7 +52,9 @@ struct Mesh {
   std::vector<Facet> interface_regions; ///< regions on the left and on the right of each
   std::vector<std::int64_t> interface_pairs, interface_labels;
   std::vector<std::int64_t> interface_curves; ///< curve on which the edge lies; -1 for none
-  std::vector<Facet> lines;                   ///< all edges with labels; empty if the file does not list them
+  std::vector<Facet> split_pairs;             ///< points on the left and on the right of curves that are split
+  std::vector<std::int64_t> split_curves, split_paths;
+  std::vector<Facet> lines; ///< all edges with labels; empty if the file does not list them
   std::vector<std::int64_t> line_labels;
 
   std::vector<double> alpha, beta, size;

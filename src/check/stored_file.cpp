@@ -270,6 +270,11 @@ void read_inner_edges(const ArrayReader& reader, Mesh& mesh) {
     mesh.interface_labels = reader.integers("/Mesh/interfaces/labels", "int32", {count});
     mesh.interface_curves = reader.integers("/Mesh/interfaces/curves", "int32", {count});
   }
+  if (reader.file.has("/Mesh/splits")) {
+    mesh.split_pairs = pairs_of(reader.integers("/Mesh/splits/pairs", "int64", {-1, 2}));
+    mesh.split_curves = reader.integers("/Mesh/splits/curves", "int32", {std::ssize(mesh.split_pairs)});
+    mesh.split_paths = reader.integers("/Mesh/splits/paths", "int32", {std::ssize(mesh.split_pairs)});
+  }
   if (reader.file.has("/Mesh/lines")) {
     mesh.lines = pairs_of(reader.integers("/Mesh/lines/topology", "int64", {-1, 2}));
     mesh.line_labels = reader.integers("/Mesh/lines/labels", "int32", {std::ssize(mesh.lines)});

@@ -186,7 +186,7 @@ double compare_checks(const StoredFile& file, const std::map<std::string, double
 }
 
 /// Compares the counts in the file with those made here.
-void check_stored_checks(const StoredFile& file, const Mesh& mesh, const Counted& counted, Report& report) {
+void check_stored_checks(const StoredFile& file, const CountedMesh& split, const CountedMesh& whole, Report& report) {
   const double complete = file.number("/trime_mpi", "complete").value_or(-1);
   const std::string reason = file.text_attribute("/trime_mpi", "stop_reason").value_or("");
   const std::vector<std::string> names = file.names("/trime_mpi/checks/name");
@@ -194,7 +194,9 @@ void check_stored_checks(const StoredFile& file, const Mesh& mesh, const Counted
     report.skip("stored_checks", "the mesh is an intermediate step of a run and has no certificate");
     return;
   }
-  const std::map<std::string, double> here = numbers_here(mesh, counted);
+  std::map<std::string, double> here = numbers_here(whole.mesh, whole.counted);
+  if (!split.mesh.split_pairs.empty())
+    here["split_euler_characteristic"] = static_cast<double>(split.counted.euler_characteristic);
   Tally wrong;
   const double all = compare_checks(file, here, wrong);
   const double must_be = reason == "sweep cap" ? 0 : all;
@@ -208,17 +210,17 @@ void check_stored_checks(const StoredFile& file, const Mesh& mesh, const Counted
     if (file.number("/trime_mpi", name) != static_cast<double>(count))
       wrong.note([&] { return fmt::format("`{}` is not {}", name, count); });
   };
-  compare_count("points", mesh.points.size());
-  compare_count("triangles", mesh.triangles.size());
+  compare_count("points", split.mesh.points.size());
+  compare_count("triangles", split.mesh.triangles.size());
   report.none("stored_checks", wrong, "rows of /trime_mpi/checks and counts that differ from what trime_check finds");
 }
 
 } // namespace
 
-void check_summary(const StoredFile& file, const Mesh& mesh, const Counted& counted, Report& report) {
-  check_quality(file, mesh, report);
-  check_sizes(file, mesh, report);
-  check_stored_checks(file, mesh, counted, report);
+void check_summary(const StoredFile& file, const CountedMesh& mesh, const CountedMesh& whole, Report& report) {
+  check_quality(file, mesh.mesh, report);
+  check_sizes(file, mesh.mesh, report);
+  check_stored_checks(file, mesh, whole, report);
 }
 
 } // namespace trime_check

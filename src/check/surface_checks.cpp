@@ -13,8 +13,9 @@ namespace {
 /// All that looks at the triangles and facets together.
 class Surface {
 public:
-  Surface(const StoredFile& file, const Mesh& mesh, Report& report)
-      : file_(file), mesh_(mesh), report_(report), plane_(mesh) {}
+  /// @param prefix stands before the names of the checks
+  Surface(const StoredFile& file, const Mesh& mesh, const std::string& prefix, Report& report)
+      : file_(file), mesh_(mesh), prefix_(prefix), report_(report), plane_(mesh) {}
 
   Counted run() {
     check_orientation();
@@ -23,7 +24,8 @@ public:
     follow_loops();
     check_euler();
     check_area();
-    check_tags();
+    if (prefix_.empty())
+      check_tags();
     check_fixed();
     if (loops_are_sound_)
       counted_.boundary = std::move(loops_);
@@ -41,7 +43,7 @@ private:
     }
     counted_.clockwise = clockwise.count;
     counted_.area = plane_.area(twice_area_);
-    report_.none("orientation", clockwise, "triangles that are flat or clockwise (CGAL, exact)");
+    report_.none(prefix_ + "orientation", clockwise, "triangles that are flat or clockwise (CGAL, exact)");
   }
 
   /// Returns the corner of the other triangle at an inner edge, as the image next to the corners of this one.
@@ -82,10 +84,11 @@ private:
     for (std::size_t k = facets.size(); k < mesh_.facets.size(); ++k)
       without_triangle.note([] { return std::string("a facet that is listed twice"); });
     counted_.not_delaunay = not_delaunay.count;
-    report_.none("manifold", crowded, "edges with more than two triangles, or with two triangles on the same side");
-    report_.none("delaunay", not_delaunay, "inner edges that are not locally Delaunay (CGAL, exact)");
-    report_.none("rim", not_facets, "edges with only one triangle that are not facets");
-    report_.none("facets", without_triangle,
+    report_.none(prefix_ + "manifold", crowded,
+                 "edges with more than two triangles, or with two triangles on the same side");
+    report_.none(prefix_ + "delaunay", not_delaunay, "inner edges that are not locally Delaunay (CGAL, exact)");
+    report_.none(prefix_ + "rim", not_facets, "edges with only one triangle that are not facets");
+    report_.none(prefix_ + "facets", without_triangle,
                  "facets that do not have exactly one triangle, or have it on their right side");
   }
 
@@ -105,7 +108,7 @@ private:
         counted_.components += components.root(static_cast<std::int64_t>(i)) == static_cast<std::int64_t>(i);
     }
     counted_.unused = unused.count;
-    report_.none("unused_points", unused, "points without a triangle");
+    report_.none(prefix_ + "unused_points", unused, "points without a triangle");
   }
 
   void follow_loops() {
@@ -133,8 +136,8 @@ private:
     }
     counted_.loops = std::ssize(loops_);
     loops_are_sound_ = branches.count == 0 && open.count == 0;
-    report_.none("simple_loops", branches, "points at which two loops of facets meet");
-    report_.none("closed_loops", open, "chains of facets that do not return to their start");
+    report_.none(prefix_ + "simple_loops", branches, "points at which two loops of facets meet");
+    report_.none(prefix_ + "closed_loops", open, "chains of facets that do not return to their start");
   }
 
   /// A surface of the plane or of a strip: 2 for each component, less 1 for each loop. A torus may have a handle.
@@ -144,7 +147,7 @@ private:
     std::int64_t expected = 2 * counted_.components - counted_.loops;
     if (mesh_.periods.x > 0 && mesh_.periods.y > 0 && counted_.euler_characteristic == expected - 2)
       expected -= 2;
-    report_.equal("euler", expected, counted_.euler_characteristic,
+    report_.equal(prefix_ + "euler", expected, counted_.euler_characteristic,
                   fmt::format("points - edges + triangles of {} components with {} boundary loops", counted_.components,
                               counted_.loops));
   }
@@ -173,7 +176,7 @@ private:
 
   void check_area() {
     if (!loops_are_sound_) {
-      report_.skip("area", "the facets do not form closed loops without crossings");
+      report_.skip(prefix_ + "area", "the facets do not form closed loops without crossings");
       return;
     }
     Integer polygon = 0, triangles = twice_area_;
@@ -185,7 +188,7 @@ private:
       if (polygon == 0)
         polygon = whole;
     }
-    report_.add("area", polygon == triangles, fmt::format("{:.17g}", plane_.area(polygon)),
+    report_.add(prefix_ + "area", polygon == triangles, fmt::format("{:.17g}", plane_.area(polygon)),
                 fmt::format("{:.17g}", plane_.area(triangles)),
                 "area inside the loops of facets, compared with the sum over the triangles (Boost, exact integers)");
   }
@@ -194,7 +197,9 @@ private:
     const std::vector<double> ids = file_.column("/trime_mpi/tags/edge_id");
     const std::vector<double> counts = file_.column("/trime_mpi/tags/edge_count");
     const std::vector<double> lengths = file_.column("/trime_mpi/tags/edge_length_sum");
-    const std::size_t parts = file_.names("/trime_mpi/tags/part_name").size();
+    const std::size_t curves = file_.names("/trime_mpi/curves/curve_name").size();
+    const std::size_t parts =
+        file_.names("/trime_mpi/tags/part_name").size() + (mesh_.split_pairs.empty() ? 0 : curves);
     Tally wrong;
     std::set<std::int64_t> seen;
     std::map<double, std::size_t> rows;
@@ -221,7 +226,7 @@ private:
     if (ids.size() != loops_.size())
       wrong.note([&] { return fmt::format("/trime_mpi/tags has {} loops, the mesh {}", ids.size(), loops_.size()); });
     report_.none(
-        "tags", wrong,
+        prefix_ + "tags", wrong,
         "facets and loops with a tag that another loop has, too, or with a tag that differs from /trime_mpi/tags");
     check_boundary_array();
   }
@@ -238,7 +243,7 @@ private:
           return fmt::format("point {} at {}: expected {}, found {}", i, place_of(mesh_.points[i]), expected[i],
                              mesh_.boundary[i]);
         });
-    report_.none("boundary_array", wrong,
+    report_.none(prefix_ + "boundary_array", wrong,
                  "points whose value in `boundary` is not the tag of their loop (for inner points: 0)");
   }
 
@@ -249,11 +254,12 @@ private:
         wrong.note([&] { return fmt::format("point {}: {}", i, mesh_.fixed[i]); });
       counted_.corners += mesh_.fixed[i] == 1 && mesh_.boundary[i] != 0;
     }
-    report_.none("fixed_array", wrong, "values of `fixed` that are neither 0 nor 1");
+    report_.none(prefix_ + "fixed_array", wrong, "values of `fixed` that are neither 0 nor 1");
   }
 
   const StoredFile& file_;
   const Mesh& mesh_;
+  const std::string prefix_;
   Report& report_;
   IntegerPlane plane_;
   Counted counted_;
@@ -265,7 +271,11 @@ private:
 } // namespace
 
 Counted check_surface(const StoredFile& file, const Mesh& mesh, Report& report) {
-  return Surface(file, mesh, report).run();
+  return Surface(file, mesh, "", report).run();
+}
+
+Counted check_joined_surface(const StoredFile& file, const Mesh& joined, Report& report) {
+  return Surface(file, joined, "joined_", report).run();
 }
 
 } // namespace trime_check

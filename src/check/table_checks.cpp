@@ -131,7 +131,9 @@ void check_loops(const StoredFile& file, const Mesh& mesh, const Counted& counte
   const std::vector<double> ids = file.column("/trime_mpi/tags/edge_id");
   const std::vector<std::string> kinds = file.names("/trime_mpi/tags/edge_kind");
   const std::vector<std::string> loop_names = file.names("/trime_mpi/tags/edge_name");
-  const std::vector<std::string> names = file.names("/trime_mpi/tags/part_name");
+  std::vector<std::string> names = file.names("/trime_mpi/tags/part_name");
+  for (const std::string& curve : file.names("/trime_mpi/curves/curve_name")) // loops go along curves that are split
+    names.push_back(curve);
   std::map<double, std::size_t> rows;
   for (std::size_t row = 0; row < std::min({ids.size(), kinds.size(), loop_names.size()}); ++row)
     rows.emplace(ids[row], row);
@@ -314,6 +316,7 @@ bool check_arrays(const StoredFile& file, const Mesh& mesh, Report& report) {
   check_edges(mesh.facets, "facet");
   check_edges(mesh.curve_edges, "edge on a curve");
   check_edges(mesh.interfaces, "interface edge");
+  check_edges(mesh.split_pairs, "pair");
   for (std::size_t i = 0; i < mesh.points.size(); ++i)
     if (!std::isfinite(mesh.points[i].x) || !std::isfinite(mesh.points[i].y))
       infinite.note([&] { return fmt::format("point {} {}", i, place_of(mesh.points[i])); });

@@ -231,8 +231,8 @@ private:
   const mesh::BinnedPoints& points_;
 };
 
-/// Finds the position of the triangles and facets of this rank among those of all ranks, and the hash, which depends on
-/// it. Collective.
+} // namespace
+
 void place_among_all(const comm::Communicator& comm, DistributedMesh& mesh) {
   const std::int64_t triangles = std::ssize(mesh.triangles), facets = std::ssize(mesh.facets);
   mesh.triangle_slab.first = comm.exclusive_scan(triangles);
@@ -250,8 +250,6 @@ void place_among_all(const comm::Communicator& comm, DistributedMesh& mesh) {
   mesh.facet_slab.total = sums[1];
   mesh.hash = static_cast<std::uint64_t>(sums[2]);
 }
-
-} // namespace
 
 mesh::Check worst_alpha_check(const mesh::QualitySummary& quality, double most) {
   const double found = std::max(1.0, quality.worst_away.alpha);

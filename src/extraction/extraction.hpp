@@ -23,6 +23,11 @@ struct Extraction {
 Extraction extract_mesh(const sites::StageView& view, const decomposition::Numbering& numbering,
                         const sizing::SizeField& asked, const polygon::RegionFinder& regions);
 
+/// @brief Sets the positions of the triangles, facets and edges of this rank among those of all ranks, and the hash,
+/// which depends on them. Collective.
+/// @pre `point_slab` is set
+void place_among_all(const comm::Communicator& comm, mesh::DistributedMesh& mesh);
+
 /// Checks that no triangle has an alpha above `most`, except next to corners below 60 degrees.
 mesh::Check worst_alpha_check(const mesh::QualitySummary& quality, double most);
 

@@ -162,6 +162,7 @@ shape::InnerParts inner_parts(const MeshOptions& options, const geometry::Frame&
     }
     inner.curves.push_back(shape::Part::curve(curve.name, std::move(lines), frame));
     inner.clip.push_back(curve.clip ? 1 : 0);
+    inner.kinds.push_back({curve.split});
   }
   return inner;
 }

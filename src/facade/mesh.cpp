@@ -37,8 +37,20 @@ std::int32_t number_of(const std::string& name, const std::vector<std::string>& 
   return static_cast<std::int32_t>(found - names.begin());
 }
 
+namespace {
+
+/// Returns the number in facet_parts of a part of the boundary, or of a curve that is split.
+std::int32_t facet_number(const std::string& name, const MeshNames& names) {
+  const bool is_split =
+      std::find(names.split_curves.begin(), names.split_curves.end(), name) != names.split_curves.end();
+  return is_split ? static_cast<std::int32_t>(names.facets.size()) + number_of(name, names.curves, "curve")
+                  : number_of(name, names.facets);
+}
+
+} // namespace
+
 std::vector<Facet> LocalMesh::facets(const std::string& name) const {
-  const std::int32_t part = number_of(name, names_.facets);
+  const std::int32_t part = facet_number(name, names_);
   std::vector<Facet> found;
   for (std::size_t k = 0; k < arrays_.facets.size(); ++k)
     if (arrays_.facet_parts[k] == part)
@@ -64,6 +76,15 @@ std::vector<InnerEdge> LocalMesh::interfaces(const std::string& name) const {
     if (arrays_.interface_pairs[k] == pair)
       found.push_back({arrays_.interfaces[k][0], arrays_.interfaces[k][1], arrays_.interface_triangles[k][0],
                        arrays_.interface_triangles[k][1], k < at(arrays_.owned_interfaces)});
+  return found;
+}
+
+std::vector<std::array<GlobalId, 2>> LocalMesh::split_pairs(const std::string& name) const {
+  const std::int32_t curve = number_of(name, names_.curves, "curve");
+  std::vector<std::array<GlobalId, 2>> found;
+  for (std::size_t k = 0; k < arrays_.split_pairs.size(); ++k)
+    if (arrays_.split_curves[k] == curve)
+      found.push_back(arrays_.split_pairs[k]);
   return found;
 }
 
@@ -157,6 +178,7 @@ record::Origin origin_of(const io::Metadata& metadata) {
   origin.period = {io::attribute_of<double>(metadata, "period_x"), io::attribute_of<double>(metadata, "period_y")};
   origin.crs = io::attribute_of<std::string>(metadata, "crs");
   origin.curve_names = io::curve_names(metadata);
+  origin.curve_kinds = record::curve_kinds(metadata);
   return origin;
 }
 
@@ -203,6 +225,7 @@ mesh::QualitySummary quality_of(const io::Metadata& metadata) {
 
 formats::Names names_of(const record::Origin& origin) {
   formats::Names names{origin.part_names, origin.regions.names, origin.curve_names, {}, origin.period, origin.crs};
+  names.curve_kinds = origin.curve_kinds;
   for (std::size_t pair = 0; pair < origin.regions.pairs.size(); ++pair)
     names.interfaces.push_back(origin.regions.pair_name(pair));
   return names;
@@ -250,7 +273,11 @@ const std::vector<std::string>& Mesh::facet_names() const {
 }
 MeshNames Mesh::names() const {
   const formats::Names names = names_of(implementation_->origin);
-  return {names.parts, names.regions, names.curves, names.interfaces};
+  MeshNames made{names.parts, names.regions, names.curves, names.interfaces};
+  for (std::size_t k = 0; k < names.curve_kinds.size(); ++k)
+    if (names.curve_kinds[k].split)
+      made.split_curves.push_back(names.curves[k]);
+  return made;
 }
 const meshing::MeshResult& Mesh::result() const {
   return implementation_->result;
@@ -260,7 +287,7 @@ const comm::Communicator& Mesh::communicator() const {
 }
 
 std::vector<std::array<GlobalId, 2>> Mesh::facets(const std::string& name) const {
-  const std::int32_t part = number_of(name, facet_names());
+  const std::int32_t part = facet_number(name, names());
   const mesh::DistributedMesh& mesh = result().mesh;
   std::vector<std::array<GlobalId, 2>> found;
   for (std::size_t k = 0; k < mesh.facets.size(); ++k)
@@ -325,7 +352,9 @@ Mesh make_mesh(MPI_Comm handle, const Shape& shape, const Size& size, const Mesh
                   record::named(domain.regions(), shape.text()),
                   {boundary.periods.x, boundary.periods.y},
                   {},
-                  domain.curves().names};
+                  domain.curves().names,
+                  {},
+                  domain.curves().kinds};
   made->metadata = record::describe(made->result, made->origin, text_of(size), *comm);
   return Mesh(std::move(made));
 }

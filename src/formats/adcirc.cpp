@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // fort.14 of ADCIRC (user's manual, "ADCIRC Grid and Boundary Information File"), which other coastal models read too:
 // depth 0; boundary segments by the names of the parts. A part that is not open is land: an island where it goes round
-// a hole, mainland elsewhere.
+// a hole, mainland elsewhere. Curves that are split are land too, or weirs if they have a height.
 #include "formats/degrees.hpp"
 #include "formats/node_strings.hpp"
 #include "formats/open_boundary.hpp"
@@ -12,6 +12,7 @@ namespace trime::formats {
 namespace {
 
 constexpr int mainland = 20, island = 21; // with the natural condition of no flow
+constexpr int weir = 24;                  // between two points, with a height and coefficients
 
 struct Group {
   std::string text;
@@ -25,19 +26,44 @@ struct Group {
     ++segments;
     points += static_cast<std::int64_t>(count);
   }
+  /// A weir counts its points on both sides.
+  void add(const PairString& string, const std::string& name, const geometry::CurveKind& kind) {
+    text += fmt::format("{} {} = {}\n", string.pairs.size(), weir, name);
+    for (const auto& [left, right] : string.pairs)
+      text += fmt::format("{} {} {} {} {}\n", left + 1, right + 1, *kind.weir_height, kind.weir_subcritical,
+                          kind.weir_supercritical);
+    ++segments;
+    points += 2 * std::ssize(string.pairs);
+  }
 };
 
-std::string boundary_text(const std::vector<NodeString>& strings, const Names& names) {
+/// The kind of the curve with this label of an edge; nothing for a part of the boundary.
+const geometry::CurveKind* kind_of(std::int64_t label, const Names& names) {
+  const auto curve = static_cast<std::size_t>(label - 1) - names.parts.size();
+  return static_cast<std::size_t>(label) > names.parts.size() && curve < names.curve_kinds.size()
+             ? &names.curve_kinds[curve]
+             : nullptr;
+}
+
+std::string boundary_text(const std::vector<NodeString>& strings, const std::vector<PairString>& pairs,
+                          const ExchangeMesh& mesh) {
+  const Names& names = mesh.names();
   const std::vector<bool> is_open = open_parts(names);
   Group open, land;
   for (const NodeString& string : strings) {
     const auto part = static_cast<std::size_t>(string.label - 1);
-    const std::string& name = names.parts[part];
-    if (is_open[part])
+    const std::string& name = mesh.line_names()[part];
+    if (const geometry::CurveKind* kind = kind_of(string.label, names); kind != nullptr && kind->weir_height)
+      continue;
+    if (part < is_open.size() && is_open[part])
       open.add(string, "", name);
     else
       land.add(string, fmt::format(" {}", string.is_island ? island : mainland), name);
   }
+  for (const PairString& string : pairs)
+    if (const auto label = static_cast<std::int64_t>(names.parts.size()) + string.curve + 1;
+        kind_of(label, names) != nullptr && kind_of(label, names)->weir_height)
+      land.add(string, names.curves[static_cast<std::size_t>(string.curve)], *kind_of(label, names));
   return fmt::format("{} = open boundaries\n{} = points on them\n{}{} = land boundaries\n{} = points on them\n{}",
                      open.segments, open.points, open.text, land.segments, land.points, land.text);
 }
@@ -52,7 +78,7 @@ std::vector<FilePlan> plan_adcirc(const ExchangeMesh& mesh, const std::string& p
             mesh.triangle_rows([](std::int64_t, GlobalId id, const std::array<GlobalId, 3>& corners, std::string& to) {
               append_line(to, id + 1, std::int64_t{3}, corners[0] + 1, corners[1] + 1, corners[2] + 1);
             }),
-            mesh.once(boundary_text(node_strings(mesh), mesh.names()))}}};
+            mesh.once(boundary_text(node_strings(mesh), pair_strings(mesh), mesh))}}};
 }
 
 } // namespace trime::formats

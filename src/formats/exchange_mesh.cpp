@@ -37,7 +37,7 @@ ExchangeMesh::ExchangeMesh(const mesh::DistributedMesh& mesh, const Names& names
 
 void ExchangeMesh::check_numbers() const {
   for (const std::int32_t part : mesh_.facet_parts)
-    check_range(part, names_.parts.size(), "part");
+    check_range(part, names_.parts.size() + names_.curves.size(), "part"); // curves may be split
   for (const std::int32_t curve : mesh_.curve_numbers)
     check_range(curve, names_.curves.size(), "curve");
   for (const std::int32_t pair : mesh_.interface_pairs)

@@ -16,6 +16,18 @@ struct Edge {
   geometry::Vec2 place; // of the first point
 };
 
+/// Appends values of one type from the bytes of all ranks.
+template <class T>
+std::vector<T> joined(const std::vector<std::string>& parts) {
+  std::vector<T> values;
+  for (const std::string& part : parts) {
+    const std::size_t before = values.size();
+    values.resize(before + part.size() / sizeof(T));
+    std::memcpy(static_cast<void*>(values.data() + before), part.data(), part.size());
+  }
+  return values;
+}
+
 std::vector<Edge> gather_edges(const ExchangeMesh& exchange) {
   const mesh::DistributedMesh& mesh = exchange.mesh();
   const comm::Communicator& comm = exchange.comm();
@@ -27,13 +39,7 @@ std::vector<Edge> gather_edges(const ExchangeMesh& exchange) {
   for (std::size_t k = 0; k < mesh.facets.size(); ++k)
     append_bytes(bytes, Edge{mesh.facets[k][0], mesh.facets[k][1], mesh.facet_tags[k], mesh.facet_parts[k] + 1,
                              points[mesh.facets[k][0]].position});
-  std::vector<Edge> edges;
-  for (const std::string& part : comm.gather(bytes)) {
-    const std::size_t before = edges.size();
-    edges.resize(before + part.size() / sizeof(Edge));
-    std::memcpy(static_cast<void*>(edges.data() + before), part.data(), part.size());
-  }
-  return edges;
+  return joined<Edge>(comm.gather(bytes));
 }
 
 bool comes_before(const Edge& a, const Edge& b) {
@@ -97,6 +103,42 @@ std::vector<NodeString> node_strings(const ExchangeMesh& mesh) {
     for (std::vector<Edge>& loop : loops_of(edges))
       append_strings(std::move(loop), strings);
   });
+  return strings;
+}
+
+std::vector<PairString> pair_strings(const ExchangeMesh& exchange) {
+  struct Pair {
+    std::array<GlobalId, 2> points;
+    std::int32_t curve, path;
+  };
+  const mesh::DistributedMesh& mesh = exchange.mesh();
+  std::vector<PairString> strings;
+  if (mesh.split_slab.total == 0)
+    return strings;
+  std::string bytes, sides;
+  for (std::size_t k = 0; k < mesh.split_pairs.size(); ++k)
+    append_bytes(bytes, Pair{mesh.split_pairs[k], mesh.split_curves[k], mesh.split_paths[k]});
+  for (std::size_t k = 0; k < mesh.facets.size(); ++k)
+    if (mesh.facet_parts[k] >= std::ssize(exchange.names().parts))
+      append_bytes(sides, mesh.facets[k]);
+  std::vector<std::array<GlobalId, 2>> edges = joined<std::array<GlobalId, 2>>(exchange.comm().gather(sides));
+  std::sort(edges.begin(), edges.end());
+  std::int32_t path = -1;
+  const auto close = [&] { // a ring has three edges or more
+    if (!strings.empty() && strings.back().pairs.size() > 2 &&
+        std::binary_search(edges.begin(), edges.end(),
+                           std::array{strings.back().pairs.back()[0], strings.back().pairs.front()[0]}))
+      strings.back().pairs.push_back(strings.back().pairs.front());
+  };
+  for (const Pair& pair : joined<Pair>(exchange.comm().gather(bytes))) {
+    if (pair.path != path) {
+      close();
+      strings.push_back({pair.curve, {}});
+    }
+    path = pair.path;
+    strings.back().pairs.push_back(pair.points);
+  }
+  close();
   return strings;
 }
 

@@ -18,4 +18,13 @@ struct NodeString {
 /// ranks. Cost: O(edges log edges) on rank 0. Collective.
 std::vector<NodeString> node_strings(const ExchangeMesh& mesh);
 
+/// Pairs of points on both sides of a path of a curve that is split.
+struct PairString {
+  std::int32_t curve = 0;
+  std::vector<std::array<GlobalId, 2>> pairs; ///< left and right; a ring has its first pair at the end, too
+};
+
+/// Returns the paths on rank 0, in the order of the mesh file; returns an empty list on other ranks. Collective.
+std::vector<PairString> pair_strings(const ExchangeMesh& mesh);
+
 } // namespace trime::formats

@@ -85,7 +85,12 @@ std::string open_boundary_text(const Names& names, const std::vector<std::int64_
   for (std::size_t part = 0; part < open.size(); ++part)
     if (edges.at(part) > 0)
       parts[open[part] ? 0 : 1].push_back(names.parts[part]);
-  return fmt::format("open boundary: {}; land boundary: {}", listed(parts[0]), listed(parts[1]));
+  std::vector<std::string> weirs;
+  for (std::size_t k = 0; k < std::min(names.curves.size(), names.curve_kinds.size()); ++k)
+    if (const std::size_t name = names.parts.size() + k; name < edges.size() && edges[name] > 0)
+      (names.curve_kinds[k].weir_height ? weirs : parts[1]).push_back(names.curves[k]);
+  return fmt::format("open boundary: {}; land boundary: {}{}", listed(parts[0]), listed(parts[1]),
+                     weirs.empty() ? "" : "; weirs: " + listed(weirs));
 }
 
 } // namespace trime::formats

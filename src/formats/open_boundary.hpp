@@ -17,7 +17,8 @@ namespace trime::formats {
 std::vector<bool> open_parts(const Names& names);
 
 /// Returns "open boundary: NAMES; land boundary: NAMES" for the parts that have edges, with at most ten names each.
-/// @param edges number of edges of each part @throws ConfigError as open_parts()
+/// Split curves are land, or follow as weirs.
+/// @param edges number of edges of each part, and of each curve @throws ConfigError as open_parts()
 std::string open_boundary_text(const Names& names, const std::vector<std::int64_t>& edges);
 
 } // namespace trime::formats

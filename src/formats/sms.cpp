@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace trime::formats {
 namespace {
 
@@ -16,6 +18,9 @@ std::string mesh_name(const Names& names) {
   std::string text = "MESHNAME \"";
   for (std::size_t k = 0; k < names.parts.size(); ++k)
     text += fmt::format("{}node string {}: {}", k == 0 ? "" : ", ", k + 1, names.parts[k]);
+  for (std::size_t k = 0; k < std::min(names.curves.size(), names.curve_kinds.size()); ++k)
+    if (names.curve_kinds[k].split)
+      text += fmt::format(", node string {}: {}", names.parts.size() + k + 1, names.curves[k]);
   for (std::size_t k = 0; names.regions.size() > 1 && k < names.regions.size(); ++k)
     text += fmt::format(", material {}: {}", k + 1, names.regions[k]);
   return text + "\"\n";

@@ -3,6 +3,7 @@
 
 #include "comm/agree.hpp"
 #include "comm/outbox.hpp"
+#include "handover/split_pairs.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
@@ -381,7 +382,9 @@ private:
 } // namespace
 
 LocalMesh make_local_mesh(const comm::Communicator& comm, const mesh::DistributedMesh& mesh, Overlap overlap) {
-  return LocalMeshMaker(comm, mesh, overlap).make();
+  LocalMesh made = LocalMeshMaker(comm, mesh, overlap).make();
+  share_split_pairs(comm, mesh, made);
+  return made;
 }
 
 } // namespace trime::handover

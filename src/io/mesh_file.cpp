@@ -174,7 +174,8 @@ std::optional<std::vector<std::int32_t>> facet_markers(const MeshFileOptions& op
   std::vector<std::int32_t> markers;
   markers.reserve(mesh.facet_parts.size());
   for (const std::int32_t part : mesh.facet_parts)
-    markers.push_back(of_part.at(static_cast<std::size_t>(part)));
+    markers.push_back(static_cast<std::size_t>(part) < of_part.size() ? of_part[static_cast<std::size_t>(part)]
+                                                                      : 0); // a side of a curve
   return markers;
 }
 
@@ -226,6 +227,16 @@ void write_interfaces(SlabFile& file, const mesh::DistributedMesh& mesh, std::si
                                    }));
 }
 
+/// Pairs of points on both sides of curves that are split.
+void write_splits(SlabFile& file, const mesh::DistributedMesh& mesh) {
+  if (mesh.split_slab.total == 0)
+    return;
+  file.group("/Mesh/splits");
+  file.slab(stored<std::int64_t>("/Mesh/splits/pairs", mesh.split_slab, 2, mesh.split_pairs));
+  file.slab(stored<std::int32_t>("/Mesh/splits/curves", mesh.split_slab, 0, mesh.split_curves));
+  file.slab(stored<std::int32_t>("/Mesh/splits/paths", mesh.split_slab, 0, mesh.split_paths));
+}
+
 /// Returns whether there are labelled edges that are not facets.
 bool has_inner_edges(const mesh::DistributedMesh& mesh) {
   return mesh.curve_slab.total > 0 || mesh.interface_slab.total > 0;
@@ -270,11 +281,11 @@ bool has_plain_mesh(const MeshFileOptions& options) {
 std::int64_t file_bytes(const MeshFileOptions& options, const mesh::DistributedMesh& mesh, const Metadata& metadata) {
   const std::int64_t vtkhdf = options.vtkhdf ? 1 : 0, plain = has_plain_mesh(options) ? 1 : 0;
   const std::int64_t per_point = 9 + 24 * vtkhdf + 16 * plain, per_triangle = 12 + 33 * vtkhdf + 24 * plain;
-  constexpr std::int64_t headers = 64 << 10, per_facet = 32, per_line = 20, per_inner_edge = 56;
-  std::int64_t bytes = headers + per_point * mesh.point_slab.total + per_triangle * mesh.triangle_slab.total +
-                       per_facet * mesh.facet_slab.total +
-                       per_inner_edge * (mesh.curve_slab.total + mesh.interface_slab.total) +
-                       (has_inner_edges(mesh) ? per_line * mesh.facet_slab.total : 0);
+  constexpr std::int64_t headers = 64 << 10, per_facet = 32, per_line = 20, per_inner_edge = 56, per_pair = 24;
+  std::int64_t bytes =
+      headers + per_point * mesh.point_slab.total + per_triangle * mesh.triangle_slab.total +
+      per_facet * mesh.facet_slab.total + per_inner_edge * (mesh.curve_slab.total + mesh.interface_slab.total) +
+      per_pair * mesh.split_slab.total + (has_inner_edges(mesh) ? per_line * mesh.facet_slab.total : 0);
   for (const Text& text : metadata.texts)
     bytes += static_cast<std::int64_t>(text.text.size());
   for (const MetadataGroup& group : metadata.groups)
@@ -302,6 +313,7 @@ std::int64_t write_hdf5(const std::string& path, const MeshFileOptions& options,
   write_interfaces(file, mesh, parts + curves);
   if (has_inner_edges(mesh))
     write_lines(file, lines);
+  write_splits(file, mesh);
   write_metadata(file, metadata);
   write_ranks(file, mesh, comm);
   file.verify();
@@ -322,6 +334,10 @@ void check_shapes(const mesh::DistributedMesh& mesh) {
                    mesh.facet_sizes.size() == facets,
                "the arrays of facets have different lengths: {} facets, {} tags, {} parts, {} sizes", facets,
                mesh.facet_tags.size(), mesh.facet_parts.size(), mesh.facet_sizes.size());
+  TRIME_ASSERT(mesh.split_curves.size() == mesh.split_pairs.size() &&
+                   mesh.split_paths.size() == mesh.split_pairs.size(),
+               "the arrays of pairs have different lengths: {} pairs, {} curves, {} paths", mesh.split_pairs.size(),
+               mesh.split_curves.size(), mesh.split_paths.size());
   const std::size_t interfaces = mesh.interfaces.size();
   TRIME_ASSERT(mesh.curve_numbers.size() == mesh.curve_edges.size() && mesh.interface_regions.size() == interfaces &&
                    mesh.interface_pairs.size() == interfaces && mesh.interface_curves.size() == interfaces,

@@ -39,6 +39,7 @@ public:
     check_ids(mesh.facets, mesh);
     read_curves(mesh);
     read_interfaces(mesh);
+    read_splits(mesh);
   }
 
 private:
@@ -68,6 +69,16 @@ private:
     read_rows("/Mesh/interfaces/values", H5T_NATIVE_INT32, 0, slab, mesh.interface_pairs);
     read_rows("/Mesh/interfaces/curves", H5T_NATIVE_INT32, 0, slab, mesh.interface_curves);
     check_ids(mesh.interfaces, mesh);
+  }
+
+  void read_splits(mesh::DistributedMesh& mesh) const {
+    if (!file_.has("/Mesh/splits/pairs"))
+      return;
+    mesh.split_slab = share(file_.rows("/Mesh/splits/pairs"), comm_);
+    read_rows("/Mesh/splits/pairs", H5T_NATIVE_INT64, 2, mesh.split_slab, mesh.split_pairs);
+    read_rows("/Mesh/splits/curves", H5T_NATIVE_INT32, 0, mesh.split_slab, mesh.split_curves);
+    read_rows("/Mesh/splits/paths", H5T_NATIVE_INT32, 0, mesh.split_slab, mesh.split_paths);
+    check_ids(mesh.split_pairs, mesh);
   }
 
   std::string field(const char* group, const char* name) const {

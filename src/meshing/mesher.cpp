@@ -21,6 +21,7 @@
 #include "meshing/rules.hpp"
 #include "meshing/same_input.hpp"
 #include "polygon/region_finder.hpp"
+#include "splitting/split_curves.hpp"
 #include "start/point_scheme.hpp"
 #include "sweep/guard_treatment.hpp"
 #include "trime/core/timer.hpp"
@@ -86,7 +87,9 @@ public:
     stars_.complete(stage_, mended ? LemmaReach::inside : LemmaReach::up_to_chords);
     if (may_raise && raise_at_short_edges(trial))
       return std::nullopt;
-    return extract();
+    MeshResult result = extract();
+    split(result);
+    return result;
   }
   std::vector<sizing::LeastSize> take_raised() { return std::move(raised_); }
 
@@ -108,6 +111,7 @@ private:
   MeshResult extract();
   void judge_bodies();
   void tell_of_regions(const certificate::RegionProof& proof, MeshResult& result) const;
+  void split(MeshResult& result) const;
   void promise_shortest_edge(double least, MeshResult& result) const;
   std::string reason_for_short_edge(const mesh::QualitySummary& quality) const;
   void tell_of_run(MeshResult& result);
@@ -343,6 +347,35 @@ MeshResult Run::extract() {
   judge_bodies();
   tell_of_run(result);
   return result;
+}
+
+/// Splits the curves that the config asks to split. From here on the mesh is no longer that of the certificate.
+void Run::split(MeshResult& result) const {
+  const std::vector<geometry::CurveKind>& kinds = run_.domain.curves().kinds;
+  if (!splitting::any_split(kinds))
+    return;
+  const auto time = run_.timers.scope("split");
+  const splitting::SplitLoops split = splitting::split_curves(
+      run_.comm,
+      {kinds, static_cast<std::int32_t>(run_.given_boundary.part_names.size()), stage_.asked_size(), result.loops},
+      result.mesh);
+  result.loops = split.loops;
+  for (boundary::LoopFate& fate : result.features.loops) {
+    std::vector<std::int32_t> tags;
+    for (const std::int32_t tag : fate.tags)
+      if (const auto found = split.new_tags.find(tag); found != split.new_tags.end())
+        tags.insert(tags.end(), found->second.begin(), found->second.end());
+      else
+        tags.push_back(tag);
+    fate.tags = std::move(tags);
+  }
+  const auto is_outer = [](const polygon::LoopSummary& loop) { return loop.kind == polygon::LoopSummary::Kind::outer; };
+  result.components = static_cast<int>(std::ranges::count_if(result.loops, is_outer));
+  result.holes = static_cast<int>(std::ssize(result.loops)) - result.components;
+  result.checks.push_back(splitting::split_check(result.mesh, result.loops));
+  run_.log.info("split: {} pairs of points on both sides of curves; {} component{}, {} boundary loops",
+                result.mesh.split_slab.total, result.components, result.components == 1 ? "" : "s",
+                result.loops.size());
 }
 
 /// Adds the check that the shortest edge is long enough, and says what keeps it short if it is not.

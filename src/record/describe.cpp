@@ -20,8 +20,11 @@ namespace {
 /// Names of the parts along a loop, in order, each once: "square" or "square+disc".
 std::string loop_name(const Origin& origin, const polygon::LoopSummary& loop) {
   std::string name;
-  for (const std::int32_t part : loop.parts)
-    name += (name.empty() ? "" : "+") + origin.part_names.at(static_cast<std::size_t>(part));
+  for (const std::int32_t number : loop.parts) { // curves that are split follow the parts
+    const auto part = static_cast<std::size_t>(number);
+    const std::size_t parts = origin.part_names.size();
+    name += (name.empty() ? "" : "+") + (part < parts ? origin.part_names[part] : origin.curve_names.at(part - parts));
+  }
   return name;
 }
 
@@ -273,59 +276,6 @@ mesh::Checks checks_of(const io::Metadata& metadata) {
   return checks;
 }
 
-namespace {
-
-/// The table of the interfaces: columns pair_id, pair_name, left, right and label.
-io::MetadataGroup interfaces_group(const Origin& origin) {
-  const geometry::Regions& regions = origin.regions;
-  std::vector<std::int32_t> ids(regions.pairs.size()), labels(ids);
-  std::vector<std::string> names;
-  for (std::size_t pair = 0; pair < ids.size(); ++pair)
-    names.push_back(regions.pair_name(pair));
-  std::iota(ids.begin(), ids.end(), 0);
-  std::iota(labels.begin(), labels.end(),
-            static_cast<std::int32_t>(origin.part_names.size() + origin.curve_names.size()) + 1);
-  return {"interfaces",
-          {},
-          {{"pair_id", ids},
-           {"pair_name", names},
-           column<std::int32_t>("left", regions.pairs, [](const std::array<int, 2>& pair) { return pair[0] + 1; }),
-           column<std::int32_t>("right", regions.pairs, [](const std::array<int, 2>& pair) { return pair[1] + 1; }),
-           {"label", labels}}};
-}
-
-} // namespace
-
-io::Metadata with_inner_edges(io::Metadata metadata, const Origin& origin) {
-  if (!origin.curve_names.empty()) {
-    std::vector<std::int32_t> ids(origin.curve_names.size()), labels(ids);
-    std::iota(ids.begin(), ids.end(), 0);
-    std::iota(labels.begin(), labels.end(), static_cast<std::int32_t>(origin.part_names.size()) + 1);
-    metadata.groups.push_back(
-        {"curves", {}, {{"curve_id", ids}, {"curve_name", origin.curve_names}, {"label", labels}}});
-  }
-  if (origin.regions.any())
-    metadata.groups.push_back(interfaces_group(origin));
-  return metadata;
-}
-
-io::Metadata with_regions(io::Metadata metadata, const Origin& origin,
-                          const std::vector<meshing::RegionSummary>& regions) {
-  metadata = with_inner_edges(std::move(metadata), origin);
-  if (regions.empty())
-    return metadata;
-  std::vector<std::int32_t> ids(regions.size());
-  std::iota(ids.begin(), ids.end(), 1);
-  metadata.groups.push_back({"regions",
-                             {},
-                             {{"region_id", ids},
-                              {"region_name", origin.regions.names},
-                              column<std::int64_t>("triangles", regions, &meshing::RegionSummary::triangles),
-                              column<double>("area", regions, &meshing::RegionSummary::area),
-                              column<double>("given_area", regions, &meshing::RegionSummary::given_area)}});
-  return metadata;
-}
-
 SizeRange size_range(const mesh::DistributedMesh& mesh, const comm::Communicator& comm) {
   constexpr std::size_t part = 1 << 14;
   struct Extremes {
@@ -356,12 +306,15 @@ geometry::Regions named(geometry::Regions regions, const std::string& geometry) 
 
 Origin origin_of(const shape::RegionShape& shape) {
   const geometry::Boundary& boundary = shape.boundary();
-  return {boundary.part_names,
-          shape.domain().part_markers(),
-          named(shape.domain().regions(), shape.region().text()),
-          {boundary.periods.x, boundary.periods.y},
-          {},
-          shape.domain().curves().names};
+  const geometry::InnerCurves& curves = shape.domain().curves();
+  Origin origin{boundary.part_names,
+                shape.domain().part_markers(),
+                named(shape.domain().regions(), shape.region().text()),
+                {boundary.periods.x, boundary.periods.y},
+                {},
+                curves.names};
+  origin.curve_kinds = curves.kinds;
+  return origin;
 }
 
 io::Metadata describe(const meshing::MeshResult& result, const Origin& origin, const std::string& sizing,

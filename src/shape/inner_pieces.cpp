@@ -71,6 +71,7 @@ geometry::InnerCurves InnerPieces::curves(const std::vector<char>& on_boundary, 
   geometry::InnerCurves curves;
   for (const Part& curve : inner_.curves)
     curves.names.push_back(curve.name());
+  curves.kinds = inner_.kinds;
   curves.on_boundary = std::move(on_boundary_);
   curves.outside = std::move(outside_);
   curves.arcs = join_pieces(std::move(pieces_), on_boundary, boundary);

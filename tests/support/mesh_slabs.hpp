@@ -152,7 +152,11 @@ inline mesh::DistributedMesh slabs_of(const mesh::DistributedMesh& whole, const 
   mesh.facet_tags = cut(whole.facet_tags, mesh.facet_slab, facets);
   mesh.facet_parts = cut(whole.facet_parts, mesh.facet_slab, facets);
   mesh.facet_sizes = cut(whole.facet_sizes, mesh.facet_slab, facets);
-  std::int64_t curve_edges = 0, interfaces = 0;
+  std::int64_t curve_edges = 0, interfaces = 0, pairs = 0;
+  mesh.split_slab = share(comm, whole.split_slab.total, seed + 50, pairs);
+  mesh.split_pairs = cut(whole.split_pairs, mesh.split_slab, pairs);
+  mesh.split_curves = cut(whole.split_curves, mesh.split_slab, pairs);
+  mesh.split_paths = cut(whole.split_paths, mesh.split_slab, pairs);
   mesh.curve_slab = share(comm, whole.curve_slab.total, seed + 30, curve_edges);
   mesh.interface_slab = share(comm, whole.interface_slab.total, seed + 40, interfaces);
   mesh.curve_edges = cut(whole.curve_edges, mesh.curve_slab, curve_edges);

@@ -43,6 +43,8 @@ struct MeshNames {
   std::vector<std::string> regions{};    ///< names of the regions 1, 2, ...
   std::vector<std::string> curves{};     ///< curves inside
   std::vector<std::string> interfaces{}; ///< pairs of regions that touch, such as `rock|soil`
+  /// Curves that are split. The edges on both sides of them are boundary edges with the name of the curve.
+  std::vector<std::string> split_curves{};
 };
 
 /// @brief The part of a mesh on one rank: handover::LocalMesh together with the names of the mesh and the
@@ -73,6 +75,11 @@ public:
   /// @throws ConfigError for an unknown name; the message lists the known names
   std::vector<InnerEdge> curve_edges(const std::string& name) const;
   std::vector<InnerEdge> interfaces(const std::string& name) const;
+  /// @brief Returns the pairs of points on the two sides of a split curve with this name, by their global ids. This
+  /// rank owns at least one point of each. The boundary edges on both sides are facets() of the same name. Not
+  /// collective.
+  /// @throws ConfigError for an unknown name; the message lists the known names
+  std::vector<std::array<GlobalId, 2>> split_pairs(const std::string& name) const;
   /// Returns the number of the region of a local triangle, from 1.
   std::int32_t region(LocalIndex triangle) const { return arrays_.regions.empty() ? 1 : arrays_.regions[at(triangle)]; }
 
@@ -158,7 +165,8 @@ public:
 
   /// Returns the names of the boundary, the regions, the curves and the interfaces.
   MeshNames names() const;
-  /// Returns the names that facets() accepts, in the order of mesh::DistributedMesh::facet_parts.
+  /// Returns the names of the parts of the boundary, in the order of mesh::DistributedMesh::facet_parts. The function
+  /// facets() accepts these names and those of split curves.
   const std::vector<std::string>& facet_names() const;
   /// @brief Returns the boundary edges with this name on this rank, as pairs of global point ids; the interior lies on
   /// the left of first -> second. Cost: O(facets on this rank). Not collective.

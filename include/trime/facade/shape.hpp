@@ -73,6 +73,9 @@ struct Curve {
   std::string name;
   std::vector<std::vector<Vec2>> lines; ///< the vertices of each line; a line that ends where it begins is a ring
   bool clip = false;                    ///< what lies outside of the shape is left out; otherwise it is a GeometryError
+  /// The curve is a crack or a wall: its points are doubled, and both sides are boundary edges with the name of the
+  /// curve. See configs/curves.md.
+  bool split = false;
 };
 
 } // namespace trime

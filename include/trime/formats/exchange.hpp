@@ -4,6 +4,7 @@
 #pragma once
 
 #include "trime/comm/communicator.hpp"
+#include "trime/geometry/boundary.hpp"
 #include "trime/geometry/vec2.hpp"
 #include "trime/io/mesh_file.hpp"
 #include "trime/mesh/distributed_mesh.hpp"
@@ -60,6 +61,7 @@ struct Names {
   std::optional<std::vector<std::string>> open_boundary{};
   /// The files of fort14 and 2dm hold longitude and latitude, not the coordinates of the mesh. Needs `crs`.
   bool in_degrees = false;
+  std::vector<geometry::CurveKind> curve_kinds{}; ///< kinds of the curves, see geometry::InnerCurves::kinds
 };
 
 /// Returns the paths of all files of a format if the first file is `path`. For example, Triangle has three files.

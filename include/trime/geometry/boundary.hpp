@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -95,6 +96,18 @@ struct InnerArc {
   double start_wedge = 0, end_wedge = 0; ///< Piece::wedge at its ends
 };
 
+/// Says what the mesh makes of a curve inside a shape.
+struct CurveKind {
+  /// The curve is a crack or a wall: the points on it are doubled, and both of its sides are boundary edges of the
+  /// mesh.
+  bool split = false;
+  /// Heights and coefficients of a weir in formats of ocean models. Curves without a height are not weirs.
+  std::optional<double> weir_height{};
+  double weir_subcritical = 1, weir_supercritical = 1;
+
+  bool operator==(const CurveKind&) const = default;
+};
+
 /// @brief The curves inside a shape that edges of the mesh follow, and the interfaces between its regions, cut at all
 /// their crossings. The mesh keeps all nodes bit for bit.
 struct InnerCurves {
@@ -105,6 +118,7 @@ struct InnerCurves {
   std::vector<double> on_boundary{}, outside{};
   std::int64_t joined_nodes = 0; ///< nodes that simplification has joined with others, because an edge between them was
                                  ///< far shorter than the triangles
+  std::vector<CurveKind> kinds{}; ///< by curve; an empty list: all curves are of the default kind
   bool empty() const { return arcs.empty(); }
 };
 

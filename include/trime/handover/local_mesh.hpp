@@ -79,6 +79,13 @@ struct LocalMesh {
   std::vector<std::int32_t> interface_pairs;                  ///< pair of regions: index into geometry::Regions::pairs
   std::vector<std::int32_t> interface_curves; ///< curve on which the edge lies, which also lists it; -1: none
 
+  // Arrays with one entry for each pair of points on a split curve, if this rank owns one of the two points, as in
+  // DistributedMesh. The points have global ids, since the other one need not be a ghost.
+  std::vector<std::array<GlobalId, 2>> split_pairs; ///< on the left and on the right side of the curve
+  std::vector<std::int32_t> split_curves;           ///< curve: index into geometry::InnerCurves::names
+  std::vector<std::int32_t> split_paths;            ///< path of the pair; its pairs are listed in order
+  std::vector<GlobalId> split_rows;                 ///< number of the pair in the list of all pairs, ascending
+
   std::vector<Neighbour> neighbours; ///< ordered by rank
 
   /// Returns the global id of a local point.
@@ -92,9 +99,9 @@ struct LocalMesh {
 /// triangles. The mesh may come from a Mesher or from io::read_mesh; it is not needed afterwards.
 /// @param mesh the whole mesh, distributed over all ranks of `comm`
 /// @throws InternalError on all ranks if a facet belongs to no triangle, or an edge inside not to two
-/// @note Collective. Makes seven sparse exchanges, two more for curves and two for interfaces, and gathers one number
-/// per rank. Takes O(n log n) time for n points on this rank. Memory: 20 bytes per point and 24 per triangle; while it
-/// is made, 40 more per triangle. Because vectors grow by doubling, it may need twice as much.
+/// @note Collective. Makes seven sparse exchanges, two more for curves, two for interfaces and one for split curves,
+/// and gathers one number per rank. Takes O(n log n) time for n points on this rank. Memory: 20 bytes per point and 24
+/// per triangle; while it is made, 40 more per triangle. Because vectors grow by doubling, it may need twice as much.
 LocalMesh make_local_mesh(const comm::Communicator& comm, const mesh::DistributedMesh& mesh,
                           Overlap overlap = Overlap::triangles);
 

@@ -24,7 +24,7 @@ struct Slab {
 /// Triangles store local indices of their vertices, which take half the memory of global ids: the points of the slab
 /// are numbered from 0, followed by points of other ranks. Memory: 25 bytes per point and 20 per triangle.
 struct DistributedMesh {
-  Slab point_slab, triangle_slab, facet_slab, curve_slab, interface_slab;
+  Slab point_slab, triangle_slab, facet_slab, curve_slab, interface_slab, split_slab;
 
   // Arrays with one entry for each point of the slab.
   UnsetVector<geometry::Vec2> points;
@@ -44,8 +44,9 @@ struct DistributedMesh {
   // Arrays with one entry for each facet (edge on the boundary); the interior lies on the left of first -> second.
   std::vector<std::array<GlobalId, 2>> facets;
   std::vector<std::int32_t> facet_tags; ///< tag of the boundary loop of the facet
-  std::vector<std::int32_t>
-      facet_parts; ///< part of the shape on whose boundary the facet lies, as an index into Boundary::part_names
+  /// Part of the shape on whose boundary the facet lies, as an index into Boundary::part_names. Sides of curves that
+  /// are split have the number of parts plus the number of the curve.
+  std::vector<std::int32_t> facet_parts;
   std::vector<float> facet_sizes; ///< target edge length at the middle of the facet as the user asked for it; `size` of
                                   ///< the points may be lower
 
@@ -60,6 +61,13 @@ struct DistributedMesh {
   std::vector<std::array<std::int32_t, 2>> interface_regions; ///< numbers of the regions on the left and on the right
   std::vector<std::int32_t> interface_pairs;  ///< the pair of regions, as an index into geometry::Regions::pairs
   std::vector<std::int32_t> interface_curves; ///< the curve on which the edge lies, as in curve_numbers; -1: none
+
+  // Arrays with one entry for each pair of points on the two sides of a curve that is split; the points have equal
+  // coordinates. The pairs of a path follow each other in the direction of the curve. Pairs need not be held by the
+  // rank that holds their points.
+  std::vector<std::array<GlobalId, 2>> split_pairs; ///< points on the left and on the right side of the curve
+  std::vector<std::int32_t> split_curves;           ///< curve of the pair, as in curve_numbers
+  std::vector<std::int32_t> split_paths;            ///< number of its path, from 0; paths are ordered by their curves
 
   /// Hash of points and triangles over all ranks, which does not depend on how they are distributed.
   std::uint64_t hash = 0;

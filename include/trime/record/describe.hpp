@@ -28,6 +28,7 @@ struct Origin {
   std::string crs{};                        ///< reference system of the coordinates; empty: unknown
   std::vector<std::string> curve_names{};   ///< names of the curves, indexed by DistributedMesh::curve_numbers
   std::vector<std::int32_t> ring_lines{};   ///< line in a contour file of each loop of the shape; missing entries are 0
+  std::vector<geometry::CurveKind> curve_kinds{}; ///< kinds of the curves, see geometry::InnerCurves::kinds
 };
 
 /// The smallest and the largest target edge length h at the points of the mesh.

@@ -108,6 +108,7 @@ struct InnerParts {
   std::vector<Part> curves{}; ///< made by Part::curve
   std::vector<char> clip{}; ///< by curve: whether what lies outside of the shape is left out; otherwise it is an error
   Division division{};
+  std::vector<geometry::CurveKind> kinds{}; ///< by curve; an empty list: all curves are of the default kind
 };
 
 /// Parts joined by an expression. The shape does not change after construction; all queries are thread-safe.

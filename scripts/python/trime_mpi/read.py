@@ -92,6 +92,9 @@ class Mesh:
       interface_regions [I,2]  numbers of the regions on the left and on the right
       interface_pairs   [I]    number of the pair of regions
       interface_curves  [I]    number of the curve on which the edge lies, -1 if there is none
+      split_pairs   [K,2]      points on the left and on the right of curves that are split
+      split_curves  [K]        number of the curve of each pair
+      split_paths   [K]        number of the path of each pair, see configs/curves.md
       first_point   [ranks]    first point of each rank that made the mesh
 
     attributes and tables hold the group /trime_mpi of the file; a table is a dict of columns. config is the config as
@@ -122,6 +125,9 @@ class Mesh:
     interface_regions: np.ndarray = no_rows(2)
     interface_pairs: np.ndarray = no_rows(0)
     interface_curves: np.ndarray = no_rows(0)
+    split_pairs: np.ndarray = no_rows(2, np.int64)
+    split_curves: np.ndarray = no_rows(0)
+    split_paths: np.ndarray = no_rows(0)
 
     def __repr__(self):
         return (f"<trime_mpi.Mesh of {len(self.points)} points, {len(self.triangles)} triangles, "
@@ -185,10 +191,12 @@ class Mesh:
 
     @functools.cached_property
     def boundaries(self):
-        """The Boundary of each part of the shape that has an edge, by the name of the part."""
-        found = {}
+        """The Boundary of each part of the shape that has an edge, by the name of the part. Curves that are split have
+        one, too, with the edges on both of their sides."""
+        found, names = {}, dict(self.parts)
+        names.update(enumerate(self.tables.get("curves", {}).get("curve_name", ()), len(names)))
         for number, rows in rows_by_number(self.facet_parts).items():
-            name = self.parts.get(number, f"part {number}")
+            name = names.get(number, f"part {number}")
             found[name] = Boundary(name, rows, self.facets[rows])
         return found
 
@@ -315,9 +323,11 @@ def mapped(dataset):
     return np.memmap(dataset.file.filename, dataset.dtype, "c", offset, dataset.shape).view(np.ndarray)
 
 
+# Arrays of /Mesh, by member.
 INNER_EDGES = {"curves": {"curve_edges": "topology", "curve_numbers": "values"},
                "interfaces": {"interface_edges": "topology", "interface_regions": "regions",
-                              "interface_pairs": "values", "interface_curves": "curves"}}  # arrays of /Mesh, by member
+                              "interface_pairs": "values", "interface_curves": "curves"},
+               "splits": {"split_pairs": "pairs", "split_curves": "curves", "split_paths": "paths"}}
 
 
 def read_open(file, path, take):

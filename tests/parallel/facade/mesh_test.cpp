@@ -115,6 +115,29 @@ TEST(Facade, RegionsAndCurves) {
   EXPECT_EQ(mesh.hash(), make_mesh(MPI_COMM_SELF, domain(), options).hash());
 }
 
+TEST(Facade, SplitCurves) {
+  const MeshOptions options{
+      .points = 1000, .curves = {{"crack", {{{.3, .5}, {.7, .5}}}, false, true}, {"river", {{{.2, .1}, {.8, .1}}}}}};
+  const Mesh mesh = make_mesh(MPI_COMM_WORLD, domain(), options);
+  EXPECT_TRUE(mesh.certified());
+  EXPECT_EQ(mesh.names().split_curves, std::vector<std::string>{"crack"});
+  const LocalMesh local = mesh.local();
+  double length = 0, sides = 0, left = 0;
+  for (const Facet& side : local.facets("crack"))
+    if (side.owned) {
+      length += geometry::length(local.points()[at(side.second)] - local.points()[at(side.first)]);
+      ++sides;
+    }
+  for (const auto& pair : local.split_pairs("crack"))
+    left += pair[0] >= local.global_id(0) && pair[0] < local.global_id(0) + local.owned_points() ? 1 : 0;
+  EXPECT_NEAR(local.sum(length), .8, 1e-12);
+  EXPECT_EQ(local.sum(sides), 2 * (local.sum(left) + 1)); // its ends are single
+  EXPECT_TRUE(local.curve_edges("crack").empty());
+  EXPECT_TRUE(local.split_pairs("river").empty());
+  expect_in("no boundary 'river'", error_of<ConfigError>([&] { local.facets("river"); }));
+  EXPECT_EQ(mesh.hash(), make_mesh(MPI_COMM_SELF, domain(), options).hash());
+}
+
 TEST(Facade, WrongRegionsAndCurves) {
   const Shape square = rectangle("square", {0, 0}, {.5, .5}), other = rectangle("other", {.6, .6}, {.7, .7});
   const auto make = [&](const MeshOptions& options) {

@@ -206,7 +206,7 @@ TEST(MeshFile, KeepsItsContractOnAnyDistribution) {
     expect_vtkhdf(file);
     expect_plain_mesh(file);
     expect_metadata(file);
-    for (const char* absent : {"/Mesh/curves", "/Mesh/interfaces", "/Mesh/lines"})
+    for (const char* absent : {"/Mesh/curves", "/Mesh/interfaces", "/Mesh/lines", "/Mesh/splits"})
       EXPECT_FALSE(H5Lexists(file, absent, H5P_DEFAULT) > 0) << absent;
     EXPECT_NE(content(options.path(".xmf")).find("/Mesh/facets/topology<"), std::string::npos);
     const std::string xdmf = content(options.path(".xdmf"));
@@ -286,12 +286,18 @@ TEST(MeshFile, HoldsInterfacesAndAllLabelledEdgesInOneOrder) {
   }
 }
 
-TEST(MeshFile, ReadsWhatItWroteOfInterfaces) {
+TEST(MeshFile, ReadsWhatItWroteOfInterfacesAndPairs) {
   const comm::Communicator comm = comm::Communicator::world();
   const test::TemporaryDirectory directory(comm);
   const MeshFileOptions options = options_in(directory.path());
   check_output(options, comm);
-  const mesh::DistributedMesh whole = test::divided_square(11);
+  mesh::DistributedMesh whole = test::divided_square(11);
+  for (std::int32_t k = 0; k < 23; ++k) {
+    whole.split_pairs.push_back({k, 100 - k});
+    whole.split_curves.push_back(k / 10);
+    whole.split_paths.push_back(k / 3);
+  }
+  whole.split_slab.total = std::ssize(whole.split_pairs);
   const Metadata metadata = metadata_of_regions(whole);
   write_mesh(options, test::slabs_of(whole, comm, 2), metadata, comm);
   const mesh::DistributedMesh part = read_mesh(options.path(".h5"), metadata, comm);
@@ -304,6 +310,9 @@ TEST(MeshFile, ReadsWhatItWroteOfInterfaces) {
   EXPECT_TRUE(same(part.interface_regions, whole.interface_regions, part.interface_slab));
   EXPECT_TRUE(same(part.interface_pairs, whole.interface_pairs, part.interface_slab));
   EXPECT_TRUE(same(part.interface_curves, whole.interface_curves, part.interface_slab));
+  EXPECT_TRUE(same(part.split_pairs, whole.split_pairs, part.split_slab));
+  EXPECT_TRUE(same(part.split_curves, whole.split_curves, part.split_slab));
+  EXPECT_TRUE(same(part.split_paths, whole.split_paths, part.split_slab));
   EXPECT_TRUE(same(part.region, whole.region, part.triangle_slab));
   EXPECT_EQ(comm.sum(std::ssize(part.interfaces)), whole.interface_slab.total);
 }

@@ -42,6 +42,17 @@ TEST(Groups, RegionsCountFromOneAndLabelsOfInterfacesFollowThoseOfCurves) {
   EXPECT_EQ(io::column_of<std::int32_t>(metadata, "interfaces", "label"), (Integers{4, 5}));
 }
 
+TEST(Groups, KindsOfCurvesAreReadAgain) {
+  Origin origin = origin_with(named({}, "coast"));
+  origin.curve_names = {"fault", "dam", "crack"};
+  EXPECT_TRUE(curve_kinds(with_inner_edges({}, origin)).empty());
+  origin.curve_kinds.assign(3, {});
+  EXPECT_TRUE(curve_kinds(with_inner_edges({}, origin)).empty()) << "no curve is split";
+  origin.curve_kinds[1] = {true, 2.5, 0.75, 0.5};
+  origin.curve_kinds[2].split = true;
+  EXPECT_EQ(curve_kinds(with_inner_edges({}, origin)), origin.curve_kinds);
+}
+
 TEST(Groups, RegionsThatDoNotTouchHaveAnEmptyTableOfInterfaces) {
   const Origin origin = origin_with({{"rest", "rock"}});
   EXPECT_TRUE(io::has_regions(with_inner_edges({}, origin)));
