@@ -142,6 +142,8 @@ void BoundaryRefiner::run(std::vector<Cut> cuts) {
       cut_doubles(cuts);
   }
   overfull_ = sites_.size() > affordable_;
+  if (!overfull_)
+    keep_areas();
 }
 
 void BoundaryRefiner::add_loop(std::span<const LoopSite> loop_sites) {

@@ -64,8 +64,9 @@ public:
   /// Takes the sites that all ranks have placed.
   /// @return the chords of this share that must be divided
   std::vector<Cut> begin(std::vector<LoopSite> laid, const Share& share);
-  /// @brief Divides chords until all conditions hold. A change at one place may spread along the whole boundary, by one
-  /// chord per round.
+  /// @brief Divides chords until all conditions hold. Then moves sites of simplified interfaces by a small share of h,
+  /// so that the regions on both sides have the areas that they were given; no site comes into the circle of a chord. A
+  /// change at one place may spread along the whole boundary, by one chord per round.
   /// @param cuts the chords to divide, from all shares
   void run(std::vector<Cut> cuts);
   polygon::BoundarySites result() const;
@@ -92,6 +93,11 @@ private:
   LocalIndex find_intruder(const SiteTree& tree, LocalIndex chord, bool foreign = false) const;
   SiteTree tree_of(std::span<const geometry::Vec2> points) const;
   bool curve_offends(LocalIndex chord) const;
+  struct Chain; // a simplified interface
+  std::vector<Chain> simplified_chains() const;
+  void shift(const Chain& chain, const std::vector<char>& is_held);
+  bool hold_offenders(std::vector<char>& is_held) const;
+  void keep_areas();
   LocalIndex divide(const Cut& cut);
   struct CutPlace {
     double t;
@@ -163,8 +169,8 @@ private:
 /// site lies in its diametral circle, or the curve between its ends leaves that circle, or the curve turns by more than
 /// 60 degrees and deviates from the chord by more than the tolerance. A chord is divided in the middle; next to a sharp
 /// corner, at a distance from the corner that is a power of two (concentric shells), so that the process ends for any
-/// angle. Points of `inside` must not lie in the circles either. Sites always lie on the curve. Deterministic; O(B
-/// log^2 B) for B sites and pieces.
+/// angle. Points of `inside` must not lie in the circles either. Sites lie on the curve, except on simplified
+/// interfaces (see BoundaryRefiner::run). Deterministic; O(B log^2 B) for B sites and pieces.
 /// @throws GeometryError with the place if two parts of the boundary are too close to be separated by chords, or if the
 /// size needs more than 2^27 sites
 /// @param make_ready returns the refiner of this rank, which must be the same on all ranks; does not communicate

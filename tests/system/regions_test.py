@@ -230,7 +230,6 @@ class Regions(RegionsTest):
         self.assertGreaterEqual(mesh.length(), 1.0)
         self.assertEqual(mesh.junctions(), {(0.0, 0.504): 3, (1.0, 0.504): 3})
 
-    @unittest.expectedFailure  # the area of `low` changes by 5e-5: vertices are removed, and no area is kept
     def test_ragged_interface_becomes_smooth(self):
         mesh = self.mesh(self.ragged(), shape="geometry = domain\nrest = top")
         self.check_areas(mesh, {"low": 0.5, "top": 0.5}, 1e-6)

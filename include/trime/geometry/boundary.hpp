@@ -4,6 +4,7 @@
 #pragma once
 
 #include "trime/geometry/lattice.hpp"
+#include "trime/geometry/region_loss.hpp"
 #include "trime/geometry/vec2.hpp"
 
 #include <array>
@@ -93,6 +94,9 @@ struct InnerArc {
   int left = 0, right = 0;               ///< regions on both sides, as indices into Regions::names
   bool closed = false;                   ///< a ring without a node: it ends where it begins
   double start_wedge = 0, end_wedge = 0; ///< Piece::wedge at its ends
+  bool is_simplified = false;            ///< an interface that is not the one that was given
+  double lost_area = 0; ///< area that the simplification has taken from the region on the left, and given to the other;
+                        ///< negative if the region on the left has gained it
 };
 
 /// @brief The curves inside a shape that edges of the mesh follow, and the interfaces between its regions, cut at all
@@ -105,6 +109,7 @@ struct InnerCurves {
   std::vector<double> on_boundary{}, outside{};
   std::int64_t joined_nodes = 0; ///< nodes that simplification has joined with others, because an edge between them was
                                  ///< far shorter than the triangles
+  std::vector<RegionLoss> losses{}; ///< what regions have lost where nodes were joined or wedges cut, place by place
   bool empty() const { return arcs.empty(); }
 };
 
@@ -131,6 +136,7 @@ struct Regions {
   std::vector<double> areas{};             ///< area of each region in the shape as it was given
   std::vector<double> outside{};           ///< area of each region as it was given that lies outside of the shape
   AbsorbedFaces absorbed{};
+  std::vector<RegionLoss> losses{};      ///< the absorbed faces one by one
   std::vector<RegionOverlap> overlaps{}; ///< overlaps that are larger than rounding errors, in the order of the regions
   /// Returns whether the shape is divided.
   bool any() const { return names.size() > 1; }
