@@ -94,10 +94,13 @@ private:
   SiteTree tree_of(std::span<const geometry::Vec2> points) const;
   bool curve_offends(LocalIndex chord) const;
   struct Chain; // a simplified interface
+  Chain chain_on(std::size_t loop) const;
+  bool leaves_out_corners(const Chain& chain) const;
   std::vector<Chain> simplified_chains() const;
   void shift(const Chain& chain, const std::vector<char>& is_held);
   bool hold_offenders(std::vector<char>& is_held) const;
   void keep_areas();
+  std::vector<geometry::RegionLoss> losses() const;
   LocalIndex divide(const Cut& cut);
   struct CutPlace {
     double t;
@@ -131,7 +134,12 @@ private:
     return b.t > site.t ? b.position : b.position + metrics_[site.loop].loop().winding;
   }
   /// Returns the largest allowed distance from the chord that starts at `site` to corners that it leaves out.
-  double tolerance(const Site& site) const { return tolerance_.at(metrics_[site.loop].sizes(site.t).asked); }
+  double tolerance(const Site& site) const {
+    return tolerance_of(static_cast<std::size_t>(site.loop)).at(metrics_[site.loop].sizes(site.t).asked);
+  }
+  const FeatureTolerance& tolerance_of(std::size_t loop) const {
+    return loop < boundary_loops_ ? tolerance_ : inner_tolerance_;
+  }
   PartSummary summarize(const Site& a) const {
     return metrics_[a.loop].summarize(a.t, end_t(a), a.position, end_of(a));
   }
@@ -140,7 +148,7 @@ private:
   const geometry::Boundary& boundary_; // the boundary alone
   const geometry::Lattice& lattice_;
   const double corner_angle_;
-  const FeatureTolerance tolerance_;
+  const FeatureTolerance tolerance_, inner_tolerance_; // of the boundary, and of curves inside
   const std::span<const geometry::Vec2> inside_;
   const SiteTree inside_tree_;
   const polygon::DroppedLoops dropped_;

@@ -3,9 +3,11 @@
 
 #include "boundary/boundary_refiner.hpp"
 #include "boundary/rules.hpp"
+#include "core/angle.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace trime::boundary {
 
@@ -29,6 +31,7 @@ double area_beside(const std::vector<Vec2>& path, Vec2 place, bool closed) {
 } // namespace
 
 struct BoundaryRefiner::Chain {
+  const geometry::InnerArc& arc;
   std::vector<LocalIndex> sites;
   std::vector<double> sizes; // h by site
   bool closed;
@@ -36,28 +39,64 @@ struct BoundaryRefiner::Chain {
   double area; // wanted between the sites and the lines from the place to the ends
 };
 
-/// The simplified interfaces of straight pieces; sites on circles must stay there.
+/// The sites on a curve inside, and the area of its given form.
+BoundaryRefiner::Chain BoundaryRefiner::chain_on(std::size_t loop) const {
+  const geometry::InnerArc& arc = curves_->arc(loop - boundary_loops_);
+  Chain chain{arc, {}, {}, arc.closed, arc.pieces.front().start, arc.lost_area};
+  for (const geometry::Piece& piece : arc.pieces) {
+    chain.area += 0.5 * cross(piece.start - chain.place, piece.end - chain.place);
+    if (piece.circular)
+      chain.area += 0.5 * piece.radius * piece.radius * (piece.sweep - std::sin(piece.sweep));
+  }
+  for (LocalIndex k = loop_first_[loop]; k >= 0 && (chain.sites.empty() || k != loop_first_[loop]);
+       k = sites_[k].next) {
+    chain.sites.push_back(k);
+    chain.sizes.push_back(metrics_[loop].sizes(sites_[k].t).asked);
+  }
+  return chain;
+}
+
+/// Does a chord pass by a corner of the curve?
+bool BoundaryRefiner::leaves_out_corners(const Chain& chain) const {
+  const double turn = corner_angle_ * (pi / 180);
+  return std::ranges::any_of(chain.sites, [&](LocalIndex k) {
+    const Site& site = sites_[k];
+    return site.next >= 0 && metrics_[site.loop].corners_between(site.t, end_t(site), turn) > 0;
+  });
+}
+
+/// The interfaces of straight pieces that are not as they were given; sites on circles must stay there.
 std::vector<BoundaryRefiner::Chain> BoundaryRefiner::simplified_chains() const {
   std::vector<Chain> chains;
   for (std::size_t loop = boundary_loops_; loop < loop_first_.size(); ++loop) {
     const geometry::InnerArc& arc = curves_->arc(loop - boundary_loops_);
-    if (!arc.is_simplified ||
+    if (arc.left == arc.right ||
         std::ranges::any_of(arc.pieces, [](const geometry::Piece& piece) { return piece.circular; }))
       continue;
-    Chain& chain = chains.emplace_back();
-    chain.closed = arc.closed;
-    chain.place = arc.pieces.front().start;
-    std::vector<Vec2> given{chain.place};
-    for (const geometry::Piece& piece : arc.pieces)
-      given.push_back(piece.end);
-    chain.area = area_beside(given, chain.place, false) + arc.lost_area;
-    for (LocalIndex k = loop_first_[loop]; k >= 0 && (chain.sites.empty() || k != loop_first_[loop]);
-         k = sites_[k].next) {
-      chain.sites.push_back(k);
-      chain.sizes.push_back(metrics_[loop].sizes(sites_[k].t).asked);
-    }
+    Chain chain = chain_on(loop);
+    if (arc.is_simplified || leaves_out_corners(chain))
+      chains.push_back(std::move(chain));
   }
   return chains;
+}
+
+/// What regions lose to each other on the interfaces, and where their nodes were joined.
+std::vector<geometry::RegionLoss> BoundaryRefiner::losses() const {
+  std::vector<geometry::RegionLoss> losses = curves_->losses();
+  for (std::size_t loop = boundary_loops_; loop < loop_first_.size(); ++loop) {
+    const Chain chain = chain_on(loop);
+    if (chain.arc.left == chain.arc.right)
+      continue;
+    std::vector<Vec2> path;
+    for (const LocalIndex k : chain.sites)
+      path.push_back(sites_[k].position);
+    const double lost = chain.area - area_beside(path, chain.place, chain.closed);
+    const bool is_simpler = chain.arc.is_simplified || leaves_out_corners(chain);
+    losses.push_back({lost > 0 ? chain.arc.left : chain.arc.right, lost > 0 ? chain.arc.right : chain.arc.left,
+                      is_simpler ? geometry::LossReason::thinning : geometry::LossReason::chords, std::fabs(lost), 1,
+                      std::fabs(lost), path[path.size() / 2]});
+  }
+  return losses;
 }
 
 /// Moves the sites of a chain to the right, in proportion to h, until the area on its left is what it should be.

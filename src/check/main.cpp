@@ -43,6 +43,7 @@ int run(const std::vector<std::string>& arguments) {
     const trime_check::Counted counted = trime_check::check_surface(file, mesh, report);
     trime_check::check_curves(file, mesh, report);
     trime_check::check_regions(file, mesh, report);
+    trime_check::check_losses(file, mesh, report);
     trime_check::check_summary(file, mesh, counted, report);
     trime_check::check_tables(file, mesh, counted, report);
     trime_check::check_shape(file, mesh, arguments.size() > 1 ? arguments[1] : "", report);

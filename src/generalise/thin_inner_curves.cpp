@@ -2,6 +2,7 @@
 #include "generalise/thin_inner_curves.hpp"
 
 #include "generalise/close_nodes.hpp"
+#include "generalise/cut_wedges.hpp"
 #include "generalise/rules.hpp"
 #include "generalise/smooth_arcs.hpp"
 #include "generalise/vertex_tree.hpp"
@@ -223,8 +224,7 @@ geometry::InnerCurves thin_arcs(const geometry::InnerCurves& curves, const geome
         ArcThinner(curves.arcs[k], of_arcs[k], arc_ends.must_bend(of_arcs[k]), {size, tree, corners}).run());
   for (std::size_t k = 0; k < given.size(); ++k)
     note_loss(given[k], thinned.arcs[k]);
-  thinned.joined_nodes = join_close_nodes(thinned.arcs, ends, size, tree);
-  geometry::set_wedges(thinned.arcs, boundary);
+  join_close_nodes(thinned, ends, size, tree);
   return thinned;
 }
 
@@ -235,7 +235,10 @@ geometry::InnerCurves thin_inner_curves(const geometry::InnerCurves& curves, con
                                         std::span<const Vec2> corners) {
   const FlowRequest request{size, boundary.bounding_box(), GeneraliseRules::flow_reach, corners};
   const geometry::InnerCurves smooth{smooth_arcs(curves.arcs, boundary, request, lattice), curves.names};
-  return thin_arcs(smooth, boundary, size, lattice, corners, curves.arcs);
+  geometry::InnerCurves thinned = thin_arcs(smooth, boundary, size, lattice, corners, curves.arcs);
+  cut_wedges(thinned, geometry::narrow_wedges(curves.arcs, boundary), boundary, {size, lattice, corners});
+  geometry::set_wedges(thinned.arcs, boundary);
+  return thinned;
 }
 
 } // namespace trime::generalise

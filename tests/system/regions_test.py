@@ -236,7 +236,6 @@ class Regions(RegionsTest):
         self.assertLessEqual(mesh.length(), 1.03)
         self.assertLessEqual(mesh.alpha(), 1.25)
 
-    @unittest.expectedFailure  # exit code 5: sites are too near to a corner beside the boundary
     def test_ragged_interface_as_it_is(self):
         mesh = self.mesh(self.ragged(), shape="geometry = domain\nrest = top", points="2000\nsimplify_within = 0")
         self.check_areas(mesh, {"low": 0.5, "top": 0.5})

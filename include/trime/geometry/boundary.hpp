@@ -126,6 +126,7 @@ struct AbsorbedFaces {
   double area = 0;
   double largest = 0; ///< area of the largest face
   Vec2 place;         ///< on the boundary of the largest face
+  std::vector<RegionLoss> faces{};
 };
 
 /// @brief The regions into which a shape is divided, such as materials. Region 0 is the rest, which no other region
@@ -136,7 +137,6 @@ struct Regions {
   std::vector<double> areas{};             ///< area of each region in the shape as it was given
   std::vector<double> outside{};           ///< area of each region as it was given that lies outside of the shape
   AbsorbedFaces absorbed{};
-  std::vector<RegionLoss> losses{};      ///< the absorbed faces one by one
   std::vector<RegionOverlap> overlaps{}; ///< overlaps that are larger than rounding errors, in the order of the regions
   /// Returns whether the shape is divided.
   bool any() const { return names.size() > 1; }

@@ -4,7 +4,10 @@
 
 #include "trime/geometry/vec2.hpp"
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <string_view>
 
 namespace trime::geometry {
 
@@ -17,6 +20,12 @@ enum class LossReason : std::int32_t {
   thinning,    ///< the interface is a simpler curve
   chords       ///< edges of the mesh are straight where the interface is round or has a small turn
 };
+
+/// Returns the word for a reason in tables.
+constexpr std::string_view name_of(LossReason reason) {
+  constexpr std::array<std::string_view, 6> names{"crumb", "sliver", "pinch-out", "close nodes", "thinning", "chords"};
+  return names[static_cast<std::size_t>(reason)];
+}
 
 /// An area that one region loses to another one, for one reason.
 struct RegionLoss {
