@@ -134,7 +134,7 @@ void BoundaryRefiner::shift(const Chain& chain, const std::vector<char>& is_held
       sites_[chain.sites[k]].position = lattice_.snap(path[k]);
 }
 
-/// Holds the sites at chords whose circles are not empty. Returns false if there are none.
+/// Holds the sites at chords whose circles are not empty. Returns whether there is such a chord.
 bool BoundaryRefiner::hold_offenders(std::vector<char>& is_held) const {
   std::vector<SiteTree::Entry> items;
   for (LocalIndex k = 0; k < static_cast<LocalIndex>(sites_.size()); ++k)

@@ -15,7 +15,7 @@ constexpr double area_tolerance = 1e-12;
 // [area of the region] The table leaves out sums below 1e-9 of a region, for each neighbour and reason.
 constexpr double loss_tolerance = 1e-7;
 
-/// What the triangles of a region say, and the tables of the file.
+/// Collects what the triangles of a region and the tables of the file say.
 struct Balance {
   double area = 0;        // of its triangles
   bool is_on_rim = false; // some of its edges are facets

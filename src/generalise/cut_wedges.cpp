@@ -72,7 +72,7 @@ private:
 
 class WedgeCutter {
 public:
-  WedgeCutter(geometry::InnerCurves& curves, const geometry::Boundary& boundary, const WedgeRequest& request)
+  WedgeCutter(geometry::InnerCurves& curves, const geometry::Boundary& boundary, const ArcRequest& request)
       : curves_(curves), obstacles_(boundary, curves.arcs), request_(request) {}
 
   void cut(const NarrowWedge& wedge) {
@@ -126,7 +126,7 @@ private:
     pieces.insert(end.at_end ? pieces.end() : pieces.begin(), lid);
   }
 
-  /// The two regions beside the tip touch up to the new node.
+  /// Lets the two regions next to the tip touch up to the new node.
   void add_border(const NarrowWedge& wedge, ArcEnd kept, Vec2 node) {
     if (wedge.left_region == wedge.right_region)
       return;
@@ -143,14 +143,14 @@ private:
 
   geometry::InnerCurves& curves_;
   const Obstacles obstacles_;
-  const WedgeRequest& request_;
+  const ArcRequest& request_;
   std::set<std::pair<std::size_t, bool>> is_cut_; // ends of arcs
 };
 
 } // namespace
 
 void cut_wedges(geometry::InnerCurves& curves, std::span<const NarrowWedge> given, const geometry::Boundary& boundary,
-                const WedgeRequest& request) {
+                const ArcRequest& request) {
   if (given.empty())
     return;
   std::set<std::array<double, 5>> known;

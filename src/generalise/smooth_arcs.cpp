@@ -18,7 +18,7 @@ using geometry::InnerArc;
 using geometry::Piece;
 using geometry::Vec2;
 
-/// Arcs of which some are smooth, and the given form of each.
+/// Holds arcs, some of them smooth, and the given form of each.
 class SmoothArcs {
 public:
   SmoothArcs(const std::vector<InnerArc>& given, const Boundary& boundary)

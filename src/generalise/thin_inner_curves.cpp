@@ -188,8 +188,8 @@ void note_loss(const InnerArc& given, InnerArc& arc) {
 
 /// Removes vertices of all arcs, and joins close nodes. @param given the arcs before any simplification
 geometry::InnerCurves thin_arcs(const geometry::InnerCurves& curves, const geometry::Boundary& boundary,
-                                const sizing::SizeField& size, const geometry::Lattice& lattice,
-                                std::span<const Vec2> corners, const std::vector<InnerArc>& given) {
+                                const ArcRequest& request, const std::vector<InnerArc>& given) {
+  const auto& [size, lattice, corners] = request;
   const geometry::Boundary all = all_curves(curves, boundary);
   VertexTree tree(all, lattice, {});
   Nodes ends{.kept = corners};
@@ -235,8 +235,9 @@ geometry::InnerCurves thin_inner_curves(const geometry::InnerCurves& curves, con
                                         std::span<const Vec2> corners) {
   const FlowRequest request{size, boundary.bounding_box(), GeneraliseRules::flow_reach, corners};
   const geometry::InnerCurves smooth{smooth_arcs(curves.arcs, boundary, request, lattice), curves.names};
-  geometry::InnerCurves thinned = thin_arcs(smooth, boundary, size, lattice, corners, curves.arcs);
-  cut_wedges(thinned, geometry::narrow_wedges(curves.arcs, boundary), boundary, {size, lattice, corners});
+  const ArcRequest all{size, lattice, corners};
+  geometry::InnerCurves thinned = thin_arcs(smooth, boundary, all, curves.arcs);
+  cut_wedges(thinned, geometry::narrow_wedges(curves.arcs, boundary), boundary, all);
   geometry::set_wedges(thinned.arcs, boundary);
   return thinned;
 }

@@ -249,7 +249,7 @@ class Regions(RegionsTest):
         self.assertGreaterEqual(mesh.area("wedge"), 0.0465)
         self.assertLessEqual(mesh.area("wedge"), 0.05 + 1e-12)
         if mesh.area("wedge") < 0.05 - 1e-6:
-            self.assertIn("'wedge'", self.report)
+            self.assertIn("wedge to top", self.report)
         x, y = mesh.meeting_point("top", "base", "wedge")
         self.assertLessEqual(abs(y - 0.5), 0.024)
         self.assertLessEqual(x, 0.25)
