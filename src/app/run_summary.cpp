@@ -116,7 +116,7 @@ std::string regions_text(const std::vector<std::string>& names, const std::vecto
   return all == named ? text : text + fmt::format(", and {} more regions", all - named);
 }
 
-/// What the regions lost to each other, one line for each, the largest first.
+/// Says what the regions lost to each other, one line for each pair and reason, the largest first.
 std::string losses_text(const std::vector<std::string>& names, std::vector<geometry::RegionLoss> losses) {
   std::stable_sort(losses.begin(), losses.end(), [](const auto& a, const auto& b) { return a.area > b.area; });
   std::string text;

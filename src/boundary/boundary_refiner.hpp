@@ -148,7 +148,7 @@ private:
   const geometry::Boundary& boundary_; // the boundary alone
   const geometry::Lattice& lattice_;
   const double corner_angle_;
-  const FeatureTolerance tolerance_, inner_tolerance_; // of the boundary, and of curves inside
+  const FeatureTolerance tolerance_, inner_tolerance_; // for the boundary, and for curves inside
   const std::span<const geometry::Vec2> inside_;
   const SiteTree inside_tree_;
   const polygon::DroppedLoops dropped_;

@@ -20,7 +20,7 @@ struct FeatureRule {
   double least_perimeter = 0;
   Components components = Components::all;
   geometry::Vec2 place{};     ///< for Components::at
-  double inner_tolerance = 0; ///< the same as `tolerance` for curves and interfaces inside
+  double inner_tolerance = 0; ///< like `tolerance`, for curves and interfaces inside
 };
 
 /// @brief Checks that the options choose exactly one component of the given boundary. Cost: O(pieces).

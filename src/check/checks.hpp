@@ -45,8 +45,8 @@ void check_curves(const StoredFile& file, const Mesh& mesh, Report& report);
 /// region is exactly that of its triangles. @pre the ids of the triangles are in range
 void check_regions(const StoredFile& file, const Mesh& mesh, Report& report);
 
-/// @brief Checks the table of what regions lost to each other, if the file has it: the area of a region and what it has
-/// lost, less what it has gained, is the area that it was given. @pre the ids of the triangles are in range
+/// @brief Checks the table of what regions lost to each other, if the file has it. The area of a region and what it has
+/// lost, less what it has gained, must be the area that it was given. @pre the ids of the triangles are in range
 void check_losses(const StoredFile& file, const Mesh& mesh, Report& report);
 
 /// Checks the sizes of points and facets.
