@@ -137,6 +137,26 @@ std::string regions_text(const Metadata& metadata) {
   return text;
 }
 
+/// What the regions lost to each other, if the file says so.
+std::string losses_text(const Metadata& metadata) {
+  const char* table = "region_losses";
+  if (!io::find_group(metadata, table))
+    return {};
+  const auto& names = tags<std::string>(metadata, "region_name");
+  const auto name_of = [&](const char* column, std::size_t k) {
+    const auto region = static_cast<std::size_t>(row<std::int32_t>(metadata, table, column, k));
+    return region >= 1 && region <= names.size() ? names[region - 1] : std::to_string(region);
+  };
+  std::string text = "\nlost by               gained by             reason       places  area\n";
+  const std::size_t rows = io::column_of<std::string>(metadata, table, "reason").size();
+  for (std::size_t k = 0; k < rows; ++k)
+    text += fmt::format("{:<21} {:<21} {:<11} {:>7}  {:.6g}, the largest at ({:.9g}, {:.9g})\n", name_of("loser", k),
+                        name_of("winner", k), row<std::string>(metadata, table, "reason", k),
+                        row<std::int64_t>(metadata, table, "places", k), row<double>(metadata, table, "area", k),
+                        row<double>(metadata, table, "largest_x", k), row<double>(metadata, table, "largest_y", k));
+  return text;
+}
+
 std::string checks_text(const Metadata& metadata) {
   if (!io::find_group(metadata, "checks"))
     return "\nno checks: this mesh is an intermediate step of a run\n";
@@ -187,14 +207,15 @@ void convert(const CommandLine& line, io::RunFiles* files, const comm::Communica
 
 std::string info(const std::string& path, const comm::Communicator& comm) {
   const Metadata metadata =
-      io::read_metadata(path, {"checks", "quality", "tags", "curves", "interfaces", "regions"}, comm);
+      io::read_metadata(path, {"checks", "quality", "tags", "curves", "interfaces", "regions", "region_losses"}, comm);
   std::string text = fmt::format("{}: {} points, {} triangles{}\n", path, value_text(metadata, "points"),
                                  value_text(metadata, "triangles"), is_marked(metadata) ? "; NOT complete" : "");
   text += made_text(metadata);
   if (const formats::Names names = names_of(metadata); names.period.x != 0 || names.period.y != 0)
     text += fmt::format("periodic      with sides of {:.9g} and {:.9g} (0: not periodic)\n", names.period.x,
                         names.period.y);
-  text += boundary_text(metadata) + regions_text(metadata) + checks_text(metadata) + quality_text(metadata);
+  text += boundary_text(metadata) + regions_text(metadata) + losses_text(metadata) + checks_text(metadata) +
+          quality_text(metadata);
   return text + fmt::format("\nmesh hash     {}\n", value_text(metadata, "mesh_hash_hex"));
 }
 

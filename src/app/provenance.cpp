@@ -168,7 +168,7 @@ io::Metadata describe_run(const Provenance& p, const meshing::MeshResult& result
         record::bad_triangles_group(result.quality), timers_group(measured.phases), counters_group(measured),
         record::tags_group(p.origin, result.loops), record::sharp_corners_group(result.features.sharp_corners),
         record::rings_group(p.origin, result.features.loops), normalization_group(p.normalized)}},
-      p.origin, result.regions);
+      p.origin, result);
 }
 
 io::Metadata describe_step(const Provenance& p, const meshing::Snapshot& snapshot) {

@@ -119,6 +119,23 @@ std::string regions_text(const std::vector<std::string>& names, const std::vecto
   return all == named ? text : text + fmt::format(", and {} more regions", all - named);
 }
 
+/// Says what the regions lost to each other, one line for each pair and reason, the largest first.
+std::string losses_text(const std::vector<std::string>& names, std::vector<geometry::RegionLoss> losses) {
+  std::stable_sort(losses.begin(), losses.end(), [](const auto& a, const auto& b) { return a.area > b.area; });
+  std::string text;
+  for (std::size_t k = 0; k < std::min(losses.size(), most_names); ++k) {
+    const geometry::RegionLoss& loss = losses[k];
+    const std::string places =
+        loss.count == 1 ? "" : fmt::format(", {} places, the largest of {:.3g}", loss.count, loss.largest);
+    text += fmt::format("{}{} to {}: {:.3g} ({}{}) at {}", k > 0 ? "\n           " : "",
+                        names.at(static_cast<std::size_t>(loss.loser)), names.at(static_cast<std::size_t>(loss.winner)),
+                        loss.area, geometry::name_of(loss.reason), places, Place(loss.place, 6));
+  }
+  if (losses.size() > most_names)
+    text += fmt::format("\n           and {} smaller ones, see 'trime_mpi info'", losses.size() - most_names);
+  return text;
+}
+
 std::string checks_text(const mesh::Checks& checks) {
   const auto passed =
       std::count_if(checks.begin(), checks.end(), [](const mesh::Check& check) { return check.passed; });
@@ -172,6 +189,7 @@ std::string run_summary(const RunFacts& facts) {
       line("Boundary", boundary_text(result.features)) +
       line("Names", names_text(facts.provenance.origin, facts.part_edges)) +
       line("Regions", regions_text(facts.provenance.origin.regions.names, result.regions)) +
+      line("Losses", losses_text(facts.provenance.origin.regions.names, result.region_losses)) +
       line("Sweeps", fmt::format("{}: {}", sweeps, sweep::to_string(result.stop_reason))) +
       line("Checks", checks_text(result.checks)) + line("Mesh hash", fmt::format("{:016x}", result.mesh.hash)) +
       line("Time", time_text(facts.measured)) + line("Files", files_text(facts.files));

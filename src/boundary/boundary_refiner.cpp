@@ -58,9 +58,9 @@ polygon::DroppedLoops drop_loops(const geometry::Boundary& boundary, const sizin
 BoundaryRefiner::BoundaryRefiner(std::shared_ptr<const LaidCurves> curves, const BoundarySizes& sizes,
                                  const geometry::Lattice& lattice, const LayoutRequest& request)
     : curves_(std::move(curves)), boundary_(curves_->boundary()), lattice_(lattice),
-      corner_angle_(request.corner_angle), tolerance_{request.rule.tolerance}, inside_(request.inside),
-      inside_tree_(tree_of(inside_)), dropped_(drop_loops(boundary_, sizes.asked(), request.rule, request.held)),
-      affordable_(request.affordable) {
+      corner_angle_(request.corner_angle), tolerance_{request.rule.tolerance},
+      inner_tolerance_{request.rule.inner_tolerance}, inside_(request.inside), inside_tree_(tree_of(inside_)),
+      dropped_(drop_loops(boundary_, sizes.asked(), request.rule, request.held)), affordable_(request.affordable) {
   const geometry::Boundary& all = curves_->all();
   metrics_.reserve(all.loops.size());
   for (std::size_t k = 0; k < all.loops.size(); ++k) {
@@ -74,8 +74,8 @@ BoundaryRefiner::BoundaryRefiner(std::shared_ptr<const LaidCurves> curves, const
 std::vector<LoopSite> BoundaryRefiner::lay_out(const Share& share) const {
   std::vector<LoopLayout> layouts;
   std::int64_t work = 0;
-  for (const LoopMetric& metric : metrics_) {
-    layouts.emplace_back(metric, lattice_, corner_angle_, tolerance_);
+  for (std::size_t loop = 0; loop < metrics_.size(); ++loop) {
+    layouts.emplace_back(metrics_[loop], lattice_, corner_angle_, tolerance_of(loop));
     work += layouts.back().work();
   }
   std::vector<LoopSite> made;
@@ -142,6 +142,8 @@ void BoundaryRefiner::run(std::vector<Cut> cuts) {
       cut_doubles(cuts);
   }
   overfull_ = sites_.size() > affordable_;
+  if (!overfull_)
+    keep_areas();
 }
 
 void BoundaryRefiner::add_loop(std::span<const LoopSite> loop_sites) {

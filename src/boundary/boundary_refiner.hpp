@@ -64,8 +64,9 @@ public:
   /// Takes the sites that all ranks have placed.
   /// @return the chords of this share that must be divided
   std::vector<Cut> begin(std::vector<LoopSite> laid, const Share& share);
-  /// @brief Divides chords until all conditions hold. A change at one place may spread along the whole boundary, by one
-  /// chord per round.
+  /// @brief Divides chords until all conditions hold. Then moves sites of simplified interfaces by a small share of h,
+  /// so that the regions on both sides have the areas that they were given; no site comes into the circle of a chord. A
+  /// change at one place may spread along the whole boundary, by one chord per round.
   /// @param cuts the chords to divide, from all shares
   void run(std::vector<Cut> cuts);
   polygon::BoundarySites result() const;
@@ -92,6 +93,14 @@ private:
   LocalIndex find_intruder(const SiteTree& tree, LocalIndex chord, bool foreign = false) const;
   SiteTree tree_of(std::span<const geometry::Vec2> points) const;
   bool curve_offends(LocalIndex chord) const;
+  struct Chain; // a simplified interface
+  Chain chain_on(std::size_t loop) const;
+  bool leaves_out_corners(const Chain& chain) const;
+  std::vector<Chain> simplified_chains() const;
+  void shift(const Chain& chain, const std::vector<char>& is_held);
+  bool hold_offenders(std::vector<char>& is_held) const;
+  void keep_areas();
+  std::vector<geometry::RegionLoss> losses() const;
   LocalIndex divide(const Cut& cut);
   struct CutPlace {
     double t;
@@ -125,7 +134,12 @@ private:
     return b.t > site.t ? b.position : b.position + metrics_[site.loop].loop().winding;
   }
   /// Returns the largest allowed distance from the chord that starts at `site` to corners that it leaves out.
-  double tolerance(const Site& site) const { return tolerance_.at(metrics_[site.loop].sizes(site.t).asked); }
+  double tolerance(const Site& site) const {
+    return tolerance_of(static_cast<std::size_t>(site.loop)).at(metrics_[site.loop].sizes(site.t).asked);
+  }
+  const FeatureTolerance& tolerance_of(std::size_t loop) const {
+    return loop < boundary_loops_ ? tolerance_ : inner_tolerance_;
+  }
   PartSummary summarize(const Site& a) const {
     return metrics_[a.loop].summarize(a.t, end_t(a), a.position, end_of(a));
   }
@@ -134,7 +148,7 @@ private:
   const geometry::Boundary& boundary_; // the boundary alone
   const geometry::Lattice& lattice_;
   const double corner_angle_;
-  const FeatureTolerance tolerance_;
+  const FeatureTolerance tolerance_, inner_tolerance_; // for the boundary, and for curves inside
   const std::span<const geometry::Vec2> inside_;
   const SiteTree inside_tree_;
   const polygon::DroppedLoops dropped_;
@@ -163,8 +177,8 @@ private:
 /// site lies in its diametral circle, or the curve between its ends leaves that circle, or the curve turns by more than
 /// 60 degrees and deviates from the chord by more than the tolerance. A chord is divided in the middle; next to a sharp
 /// corner, at a distance from the corner that is a power of two (concentric shells), so that the process ends for any
-/// angle. Points of `inside` must not lie in the circles either. Sites always lie on the curve. Deterministic; O(B
-/// log^2 B) for B sites and pieces.
+/// angle. Points of `inside` must not lie in the circles either. Sites lie on the curve, except on simplified
+/// interfaces (see BoundaryRefiner::run). Deterministic; O(B log^2 B) for B sites and pieces.
 /// @throws GeometryError with the place if two parts of the boundary are too close to be separated by chords, or if the
 /// size needs more than 2^27 sites
 /// @param make_ready returns the refiner of this rank, which must be the same on all ranks; does not communicate

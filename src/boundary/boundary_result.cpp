@@ -88,6 +88,7 @@ polygon::InnerChords BoundaryRefiner::inner_chords() const {
     inner.corner.push_back(corner);
   }
   inner.joined_nodes = curves_->joined_nodes();
+  inner.losses = losses();
   inner.sort_ends();
   return inner;
 }

@@ -19,7 +19,8 @@ struct FeatureRule {
   double tolerance = 0;
   double least_perimeter = 0;
   Components components = Components::all;
-  geometry::Vec2 place{}; ///< for Components::at
+  geometry::Vec2 place{};     ///< for Components::at
+  double inner_tolerance = 0; ///< like `tolerance`, for curves and interfaces inside
 };
 
 /// @brief Checks that the options choose exactly one component of the given boundary. Cost: O(pieces).

@@ -24,8 +24,9 @@ public:
   const geometry::Boundary& all() const { return joined_ ? *joined_ : boundary_; }
   /// Returns the number of loops of the boundary, which come first.
   std::size_t boundary_loops() const { return boundary_.loops.size(); }
-  /// See geometry::InnerCurves.
+  /// Return what geometry::InnerCurves holds.
   std::int64_t joined_nodes() const { return inner_.joined_nodes; }
+  const std::vector<geometry::RegionLoss>& losses() const { return inner_.losses; }
   /// Returns an arc inside.
   const geometry::InnerArc& arc(std::size_t number) const { return inner_.arcs[number]; }
 

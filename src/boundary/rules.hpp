@@ -97,6 +97,8 @@ struct BoundaryRules {
   static constexpr double held_spacing = 1.0 / 512;
   /// [h] Free sites nearer than this to a fixed point are removed at the start.
   static constexpr double fixed_clearance = 0.6;
+  /// [h] Sites of a simplified interface move by at most this to keep the areas of the regions. Not measured.
+  static constexpr double most_area_shift = 0.1;
 };
 
 } // namespace trime::boundary

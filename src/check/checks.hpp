@@ -55,6 +55,10 @@ void check_lines(const StoredFile& file, const Mesh& mesh, Report& report);
 /// region is exactly that of its triangles. @pre the ids of the triangles are in range
 void check_regions(const StoredFile& file, const Mesh& mesh, Report& report);
 
+/// @brief Checks the table of what regions lost to each other, if the file has it. The area of a region and what it has
+/// lost, less what it has gained, must be the area that it was given. @pre the ids of the triangles are in range
+void check_losses(const StoredFile& file, const Mesh& mesh, Report& report);
+
 /// Checks the sizes of points and facets.
 void check_sizes(const StoredFile& file, const Mesh& mesh, Report& report);
 

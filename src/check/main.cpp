@@ -40,6 +40,7 @@ void check_all(const trime_check::StoredFile& file, const trime_check::Mesh& mes
   trime_check::check_curves(file, whole, report);
   trime_check::check_lines(file, mesh, report);
   trime_check::check_regions(file, mesh, report);
+  trime_check::check_losses(file, mesh, report);
   trime_check::check_summary(file, {mesh, counted}, {whole, of_whole}, report);
   trime_check::check_tables(file, mesh, counted, report);
   trime_check::check_shape(file, whole, config, report);

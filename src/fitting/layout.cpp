@@ -180,7 +180,8 @@ std::unique_ptr<BoundaryRefiner> make_refiner(const LayoutContext& context, std:
   const bool keeps_all = context.options.features.keep_all;
   const FeatureRule rule{keeps_all ? 0 : context.options.features.tolerance,
                          keeps_all ? 0 : BoundaryRules::least_perimeter, context.options.features.components,
-                         context.options.features.component_place};
+                         context.options.features.component_place,
+                         generalises(context) ? context.options.features.tolerance : 0};
   const geometry::Boundary& boundary = generalised_curves(context, fitted, stage);
   const auto curves = std::make_shared<const boundary::LaidCurves>(
       boundary, inner_curves(context, stage.asked_size(), boundary, fitted.curves), context.fixed.on_curves());

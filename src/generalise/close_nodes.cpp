@@ -4,6 +4,9 @@
 #include "generalise/rules.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
 
 namespace trime::generalise {
 namespace {
@@ -16,12 +19,12 @@ constexpr int most_rounds = 20; // over all arcs; nodes may come near to others
 
 class NodeJoiner {
 public:
-  NodeJoiner(std::vector<InnerArc>& arcs, const Nodes& nodes, const sizing::SizeField& size, VertexTree& tree)
-      : arcs_(arcs), nodes_(nodes), size_(size), tree_(tree), is_gone_(arcs.size(), 0) {
-    for (std::size_t k = 0; k < arcs.size(); ++k)
+  NodeJoiner(geometry::InnerCurves& curves, const Nodes& nodes, const sizing::SizeField& size, VertexTree& tree)
+      : curves_(curves), arcs_(curves.arcs), nodes_(nodes), size_(size), tree_(tree), is_gone_(curves.arcs.size(), 0) {
+    for (std::size_t k = 0; k < arcs_.size(); ++k)
       ++arcs_of_[curve(k)];
-    for (std::size_t k = 0; k < arcs.size(); ++k)
-      if (!arcs[k].closed) {
+    for (std::size_t k = 0; k < arcs_.size(); ++k)
+      if (!arcs_[k].closed) {
         arms_[key(start(k))].push_back({k, false});
         arms_[key(end(k))].push_back({k, true});
       }
@@ -102,6 +105,7 @@ private:
     }
     for (const Arm& arm : arms)
       if (arm.arc != edge) {
+        note_loss(arm, from, to);
         (arm.at_end ? last_piece(arm).end : last_piece(arm).start) = to;
         arms_.at(key(to)).push_back(arm);
       }
@@ -113,6 +117,17 @@ private:
     return true;
   }
 
+  /// Notes which region the last piece of an arm takes from when it turns to another node.
+  void note_loss(const Arm& arm, Vec2 from, Vec2 to) {
+    const InnerArc& arc = arcs_[arm.arc];
+    const Piece& piece = last_piece(arm);
+    const double to_left = -0.5 * cross(piece.end - piece.start, to - piece.start);
+    if (arc.left != arc.right && to_left != 0)
+      curves_.losses.push_back({to_left > 0 ? arc.right : arc.left, to_left > 0 ? arc.left : arc.right,
+                                geometry::LossReason::close_nodes, std::fabs(to_left), 1, std::fabs(to_left), from});
+  }
+
+  geometry::InnerCurves& curves_;
   std::vector<InnerArc>& arcs_;
   const Nodes& nodes_;
   const sizing::SizeField& size_;
@@ -124,9 +139,9 @@ private:
 
 } // namespace
 
-std::int64_t join_close_nodes(std::vector<InnerArc>& arcs, const Nodes& nodes, const sizing::SizeField& size,
-                              VertexTree& tree) {
-  return NodeJoiner(arcs, nodes, size, tree).run();
+void join_close_nodes(geometry::InnerCurves& curves, const Nodes& nodes, const sizing::SizeField& size,
+                      VertexTree& tree) {
+  curves.joined_nodes = NodeJoiner(curves, nodes, size, tree).run();
 }
 
 } // namespace trime::generalise

@@ -7,11 +7,9 @@
 #include "trime/geometry/vec2.hpp"
 #include "trime/sizing/size_field.hpp"
 
-#include <cstdint>
 #include <map>
 #include <span>
 #include <utility>
-#include <vector>
 
 namespace trime::generalise {
 
@@ -29,9 +27,9 @@ struct Nodes {
 /// of its ends to the other end. An end stays if it lies on the boundary, if it is one of Nodes::kept, or if fewer than
 /// three arcs meet there. Free ends of curves stay, too, and so does the last edge of a curve. Arcs do not cross each
 /// other afterwards: the triangle over which an edge moves holds no vertex. Where two regions touched along the edge,
-/// the other regions around it touch in the node. Cost: O(n log n) for n arcs.
-/// @return the number of nodes that are gone
-std::int64_t join_close_nodes(std::vector<geometry::InnerArc>& arcs, const Nodes& nodes, const sizing::SizeField& size,
-                              VertexTree& tree);
+/// the other regions around it touch in the node. Sets InnerCurves::joined_nodes, and adds to InnerCurves::losses.
+/// Cost: O(n log n) for n arcs.
+void join_close_nodes(geometry::InnerCurves& curves, const Nodes& nodes, const sizing::SizeField& size,
+                      VertexTree& tree);
 
 } // namespace trime::generalise

@@ -8,6 +8,9 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <span>
+#include <vector>
 
 namespace trime::generalise {
 
@@ -26,5 +29,20 @@ struct SmoothedCurves {
 /// @throws GeometryError if a size is not positive and finite
 std::unique_ptr<SmoothedCurves> smooth_ragged_runs(const geometry::Boundary& boundary, const sizing::SizeField& size,
                                                    const geometry::Lattice& lattice, double reach);
+
+/// What the smoothing of arcs needs to know.
+struct FlowRequest {
+  const sizing::SizeField& size;
+  geometry::Box bounds;                 ///< no vertex leaves this box
+  double reach;                         ///< [h] features of this size are smoothed away
+  std::span<const geometry::Vec2> kept; ///< vertices that stay, in lexicographic order
+};
+
+/// @brief Returns the pieces of an arc between two regions with its ragged stretches smoothed, as in
+/// smooth_ragged_runs(); nothing if it is not ragged. The ends stay bit for bit. The areas on both sides change by a
+/// small share of h times the length; boundary::keep_areas restores them.
+/// @throws GeometryError if a size is not positive and finite
+std::optional<std::vector<geometry::Piece>> smoothed_arc(const geometry::InnerArc& arc, const FlowRequest& request,
+                                                         const geometry::Lattice& lattice);
 
 } // namespace trime::generalise

@@ -2,7 +2,9 @@
 #include "generalise/thin_inner_curves.hpp"
 
 #include "generalise/close_nodes.hpp"
+#include "generalise/cut_wedges.hpp"
 #include "generalise/rules.hpp"
+#include "generalise/smooth_arcs.hpp"
 #include "generalise/vertex_tree.hpp"
 #include "geometry/inner_wedges.hpp"
 #include "trime/core/types.hpp"
@@ -161,11 +163,33 @@ private:
   std::size_t left_ = 0;
 };
 
-} // namespace
+/// The area between the vertices of an arc and the lines from a place to its ends, positive if the place lies on its
+/// left.
+double area_beside(const InnerArc& arc, Vec2 place) {
+  double twice = 0;
+  for (const Piece& piece : arc.pieces)
+    twice += cross(piece.start - place, piece.end - place);
+  return 0.5 * twice;
+}
 
-geometry::InnerCurves thin_inner_curves(const geometry::InnerCurves& curves, const geometry::Boundary& boundary,
-                                        const sizing::SizeField& size, const geometry::Lattice& lattice,
-                                        std::span<const Vec2> corners) {
+bool is_same(const InnerArc& a, const InnerArc& b) {
+  return std::equal(a.pieces.begin(), a.pieces.end(), b.pieces.begin(), b.pieces.end(),
+                    [](const Piece& p, const Piece& q) { return p.start == q.start && p.end == q.end; });
+}
+
+/// Notes what the simplification of an interface has taken from the region on its left.
+void note_loss(const InnerArc& given, InnerArc& arc) {
+  if (arc.left == arc.right || is_same(given, arc))
+    return;
+  const Vec2 place = given.pieces.front().start;
+  arc.is_simplified = true;
+  arc.lost_area = area_beside(given, place) - area_beside(arc, place);
+}
+
+/// Removes vertices of all arcs, and joins close nodes. @param given the arcs before any simplification
+geometry::InnerCurves thin_arcs(const geometry::InnerCurves& curves, const geometry::Boundary& boundary,
+                                const ArcRequest& request, const std::vector<InnerArc>& given) {
+  const auto& [size, lattice, corners] = request;
   const geometry::Boundary all = all_curves(curves, boundary);
   VertexTree tree(all, lattice, {});
   Nodes ends{.kept = corners};
@@ -198,7 +222,22 @@ geometry::InnerCurves thin_inner_curves(const geometry::InnerCurves& curves, con
   for (std::size_t k = 0; k < curves.arcs.size(); ++k)
     thinned.arcs.push_back(
         ArcThinner(curves.arcs[k], of_arcs[k], arc_ends.must_bend(of_arcs[k]), {size, tree, corners}).run());
-  thinned.joined_nodes = join_close_nodes(thinned.arcs, ends, size, tree);
+  for (std::size_t k = 0; k < given.size(); ++k)
+    note_loss(given[k], thinned.arcs[k]);
+  join_close_nodes(thinned, ends, size, tree);
+  return thinned;
+}
+
+} // namespace
+
+geometry::InnerCurves thin_inner_curves(const geometry::InnerCurves& curves, const geometry::Boundary& boundary,
+                                        const sizing::SizeField& size, const geometry::Lattice& lattice,
+                                        std::span<const Vec2> corners) {
+  const FlowRequest request{size, boundary.bounding_box(), GeneraliseRules::flow_reach, corners};
+  const geometry::InnerCurves smooth{smooth_arcs(curves.arcs, boundary, request, lattice), curves.names};
+  const ArcRequest all{size, lattice, corners};
+  geometry::InnerCurves thinned = thin_arcs(smooth, boundary, all, curves.arcs);
+  cut_wedges(thinned, geometry::narrow_wedges(curves.arcs, boundary), boundary, all);
   geometry::set_wedges(thinned.arcs, boundary);
   return thinned;
 }

@@ -16,6 +16,9 @@ namespace trime::generalise {
 /// GeneraliseRules::vertex_area h^2. A vertex stays if it is farther than GeneraliseRules::vertex_move h from the edge
 /// that would replace it.
 ///
+/// Interfaces between regions are smoothed before, see smooth_arcs(), and narrow wedges are cut afterwards, see
+/// cut_wedges(). InnerArc::lost_area says how much area an interface takes from its left side.
+///
 /// Nodes, corners that the user asked for, and all other curves stay on their side: a vertex stays if its triangle
 /// contains a vertex of another curve or of the boundary (see VertexTree). Only straight pieces are changed. Cost: O(n
 /// log n) for n pieces of the curves and the boundary.

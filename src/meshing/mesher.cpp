@@ -17,6 +17,7 @@
 #include "meshing/checkpoint_writer.hpp"
 #include "meshing/meshed_boundary.hpp"
 #include "meshing/outlook.hpp"
+#include "meshing/region_losses.hpp"
 #include "meshing/relaxation.hpp"
 #include "meshing/rules.hpp"
 #include "meshing/same_input.hpp"
@@ -294,7 +295,7 @@ bool Run::raise_at_short_edges(int trial) {
   return true;
 }
 
-/// Sets the table of the regions, and says which of them are too small for the triangles.
+/// Sets the tables of the regions, and says which of them are too small for the triangles.
 void Run::tell_of_regions(const certificate::RegionProof& proof, MeshResult& result) const {
   const geometry::Regions& given = run_.domain.regions();
   for (std::size_t k = 0; k < proof.areas.size(); ++k) {
@@ -305,6 +306,11 @@ void Run::tell_of_regions(const certificate::RegionProof& proof, MeshResult& res
                        given.names[k], given.areas[k]);
     result.regions.push_back({proof.triangles[k], proof.areas[k], given.areas[k]});
   }
+  if (proof.areas.empty())
+    return;
+  std::vector<geometry::RegionLoss> losses = given.absorbed.faces;
+  std::ranges::copy(stage_.polygon.inner.losses, std::back_inserter(losses));
+  result.region_losses = summed_losses(std::move(losses), given);
 }
 
 /// The arrays that are written, with their quality and the certificate.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "trime/core/types.hpp"
+#include "trime/geometry/region_loss.hpp"
 #include "trime/geometry/vec2.hpp"
 
 #include <algorithm>
@@ -27,7 +28,9 @@ struct InnerChords {
   std::vector<geometry::Vec2> sites; ///< sites inside the shape, each once, in lexicographic order
   std::vector<std::uint8_t> corner;  ///< by site: whether it is a node or a corner, which must be a vertex of the mesh
   std::int64_t joined_nodes = 0;     ///< see geometry::InnerCurves
-  std::vector<LocalIndex> by_end;    ///< each chord k as 2 k (first end) and 2 k + 1 (second end), by place of that end
+  std::vector<geometry::RegionLoss> losses{}; ///< what regions lose to each other by interfaces that are not the given
+                                              ///< ones, place by place
+  std::vector<LocalIndex> by_end; ///< each chord k as 2 k (first end) and 2 k + 1 (second end), by place of that end
 
   bool empty() const { return chords.empty(); }
   geometry::Vec2 end(LocalIndex half) const {

@@ -334,7 +334,7 @@ io::Metadata describe(const meshing::MeshResult& result, const Origin& origin, c
        {history_group(result.history), quality_group(result.quality), checks_group(result.checks),
         bad_triangles_group(result.quality), tags_group(origin, result.loops),
         sharp_corners_group(result.features.sharp_corners), rings_group(origin, result.features.loops)}},
-      origin, result.regions);
+      origin, result);
 }
 
 } // namespace trime::record

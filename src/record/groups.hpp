@@ -52,11 +52,10 @@ io::MetadataGroup tags_group(const Origin& origin, const std::vector<polygon::Lo
 /// Adds the tables that explain the numbers in /Mesh/curves and /Mesh/interfaces, if there are curves and regions: the
 /// arrays `values` contain curve_id and pair_id.
 io::Metadata with_inner_edges(io::Metadata metadata, const Origin& origin);
+/// Does the same, and adds the table of the regions of a finished mesh, and that of their losses if there are any.
+io::Metadata with_regions(io::Metadata metadata, const Origin& origin, const meshing::MeshResult& result);
 /// Returns the kinds of the curves from the metadata of a file; none if no curve is split.
 std::vector<geometry::CurveKind> curve_kinds(const io::Metadata& metadata);
-/// Does the same, and adds the table of the regions of a finished mesh.
-io::Metadata with_regions(io::Metadata metadata, const Origin& origin,
-                          const std::vector<meshing::RegionSummary>& regions);
 /// Returns the table of corners at which small angles cannot be avoided.
 io::MetadataGroup sharp_corners_group(const std::vector<boundary::SharpCorner>& corners);
 /// Returns the table of the loops of the given shape.

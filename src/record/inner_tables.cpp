@@ -77,8 +77,28 @@ io::Metadata with_inner_edges(io::Metadata metadata, const Origin& origin) {
   return metadata;
 }
 
-io::Metadata with_regions(io::Metadata metadata, const Origin& origin,
-                          const std::vector<meshing::RegionSummary>& regions) {
+namespace {
+
+/// Who lost what to whom: numbers of the regions, the reason, the sum, and the largest place.
+io::MetadataGroup losses_group(const std::vector<geometry::RegionLoss>& losses) {
+  using geometry::RegionLoss;
+  return {"region_losses",
+          {},
+          {column<std::int32_t>("loser", losses, [](const RegionLoss& loss) { return loss.loser + 1; }),
+           column<std::int32_t>("winner", losses, [](const RegionLoss& loss) { return loss.winner + 1; }),
+           column<std::string>("reason", losses,
+                               [](const RegionLoss& loss) { return std::string(geometry::name_of(loss.reason)); }),
+           column<double>("area", losses, &RegionLoss::area),
+           column<std::int64_t>("places", losses, &RegionLoss::count),
+           column<double>("largest_area", losses, &RegionLoss::largest),
+           column<double>("largest_x", losses, [](const RegionLoss& loss) { return loss.place.x; }),
+           column<double>("largest_y", losses, [](const RegionLoss& loss) { return loss.place.y; })}};
+}
+
+} // namespace
+
+io::Metadata with_regions(io::Metadata metadata, const Origin& origin, const meshing::MeshResult& result) {
+  const std::vector<meshing::RegionSummary>& regions = result.regions;
   metadata = with_inner_edges(std::move(metadata), origin);
   if (regions.empty())
     return metadata;
@@ -91,6 +111,8 @@ io::Metadata with_regions(io::Metadata metadata, const Origin& origin,
                               column<std::int64_t>("triangles", regions, &meshing::RegionSummary::triangles),
                               column<double>("area", regions, &meshing::RegionSummary::area),
                               column<double>("given_area", regions, &meshing::RegionSummary::given_area)}});
+  if (!result.region_losses.empty())
+    metadata.groups.push_back(losses_group(result.region_losses));
   return metadata;
 }
 

@@ -87,7 +87,7 @@ public:
     std::vector<std::int32_t> markers = name_markers(boundary_, given_, frame_);
     geometry::InnerCurves curves = inside_.curves(on_boundary_, boundary_);
     geometry::Domain domain(frame_, std::move(boundary_), std::move(markers));
-    geometry::Regions regions = sides_.regions(curves.arcs, least, region_.text());
+    geometry::Regions regions = sides_.regions(curves.arcs, domain.boundary(), least, region_.text());
     regions.absorbed = absorbed_;
     domain.set_regions(std::move(regions));
     domain.set_curves(std::move(curves));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shape/region_sides.hpp"
 
+#include "geometry/narrow_wedges.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
@@ -104,8 +105,8 @@ void RegionSides::report_empty(std::size_t region, double least, const std::stri
                   head, hiding));
 }
 
-geometry::Regions RegionSides::regions(std::span<const geometry::InnerArc> arcs, double least,
-                                       const std::string& text) const {
+geometry::Regions RegionSides::regions(const std::vector<geometry::InnerArc>& arcs, const geometry::Boundary& boundary,
+                                       double least, const std::string& text) const {
   geometry::Regions regions{{division_.rest.empty() ? text : division_.rest}, {}, areas_, outside_};
   for (std::size_t k = 1; k < outside_.size(); ++k)
     regions.outside[k] = outside_[k] > least ? outside_[k] : 0;
@@ -115,6 +116,9 @@ geometry::Regions RegionSides::regions(std::span<const geometry::InnerArc> arcs,
   for (const geometry::InnerArc& arc : arcs)
     if (arc.left != arc.right)
       pairs.insert({std::min(arc.left, arc.right), std::max(arc.left, arc.right)});
+  for (const geometry::NarrowWedge& wedge : geometry::narrow_wedges(arcs, boundary)) // which may be cut
+    if (wedge.left_region != wedge.right_region)
+      pairs.insert({std::min(wedge.left_region, wedge.right_region), std::max(wedge.left_region, wedge.right_region)});
   regions.pairs.assign(pairs.begin(), pairs.end());
   for (const auto& [pair, area] : overlaps_)
     if (0.5 * area.twice > std::max(least, overlap_share * std::min(given_[pair[0]], given_[pair[1]])))

@@ -38,10 +38,12 @@ public:
   /// shape and does not
   void check(double least, const std::string& text) const;
 
-  /// @brief Returns the names and areas; the pairs are those of the arcs. `text` is the name of the rest if it has
+  /// @brief Returns the names and areas; the pairs are those of the arcs, and those that
+  /// would touch if narrow wedges were cut. `text` is the name of the rest if it has
   /// none.
   /// @param least area that is not more than rounding errors
-  geometry::Regions regions(std::span<const geometry::InnerArc> arcs, double least, const std::string& text) const;
+  geometry::Regions regions(const std::vector<geometry::InnerArc>& arcs, const geometry::Boundary& boundary,
+                            double least, const std::string& text) const;
 
 private:
   struct Area {

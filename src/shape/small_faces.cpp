@@ -15,7 +15,9 @@ namespace trime::shape {
 namespace {
 
 using geometry::AbsorbedFaces;
+using geometry::LossReason;
 using geometry::Piece;
+using geometry::RegionLoss;
 using geometry::Vec2;
 
 // Each round gives away at least the smallest face, and usually nearly all.
@@ -120,7 +122,7 @@ int widest_neighbour(const Faces& faces, const Faces::Walk& walk, const std::vec
 
 /// Gives away the smallest faces, as long as none is next to another one of this round.
 bool absorb_once(std::vector<LabelledPiece>& pieces, double least_perimeter, double least_width,
-                 AbsorbedFaces& absorbed) {
+                 std::vector<RegionLoss>& absorbed) {
   const Faces faces(pieces);
   std::vector<Faces::Walk> small;
   for (const Faces::Walk& walk : faces.walks())
@@ -142,12 +144,9 @@ bool absorb_once(std::vector<LabelledPiece>& pieces, double least_perimeter, dou
       is_changed[side / 2] = 1;
       labels.emplace_back(side, label);
     });
-    ++absorbed.count;
-    absorbed.area += walk.area;
-    if (walk.area > absorbed.largest) {
-      absorbed.largest = walk.area;
-      absorbed.place = pieces[walk.first / 2].piece.start;
-    }
+    absorbed.push_back({faces.label(walk.first), label,
+                        walk.perimeter < least_perimeter ? LossReason::crumb : LossReason::sliver, walk.area, 1,
+                        walk.area, pieces[walk.first / 2].piece.start});
   }
   for (const auto& [side, label] : labels)
     (side % 2 == 0 ? pieces[side / 2].left : pieces[side / 2].right) = label;
@@ -160,8 +159,16 @@ bool absorb_once(std::vector<LabelledPiece>& pieces, double least_perimeter, dou
 AbsorbedFaces absorb_small_faces(std::vector<LabelledPiece>& pieces, double least_perimeter, double least_width) {
   AbsorbedFaces absorbed;
   for (int round = 0; round < most_rounds; ++round)
-    if (!absorb_once(pieces, least_perimeter, least_width, absorbed))
+    if (!absorb_once(pieces, least_perimeter, least_width, absorbed.faces))
       break;
+  for (const RegionLoss& loss : absorbed.faces) {
+    ++absorbed.count;
+    absorbed.area += loss.area;
+    if (loss.area > absorbed.largest) {
+      absorbed.largest = loss.area;
+      absorbed.place = loss.place;
+    }
+  }
   return absorbed;
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "trime/geometry/lattice.hpp"
+#include "trime/geometry/region_loss.hpp"
 #include "trime/geometry/vec2.hpp"
 
 #include <array>
@@ -94,6 +95,9 @@ struct InnerArc {
   int left = 0, right = 0;               ///< regions on both sides, as indices into Regions::names
   bool closed = false;                   ///< a ring without a node: it ends where it begins
   double start_wedge = 0, end_wedge = 0; ///< Piece::wedge at its ends
+  bool is_simplified = false;            ///< an interface that is not the one that was given
+  double lost_area = 0; ///< area that the simplification has taken from the region on the left, and given to the other;
+                        ///< negative if the region on the left has gained it
 };
 
 /// Says what the mesh makes of a curve inside a shape.
@@ -119,6 +123,7 @@ struct InnerCurves {
   std::int64_t joined_nodes = 0; ///< nodes that simplification has joined with others, because an edge between them was
                                  ///< far shorter than the triangles
   std::vector<CurveKind> kinds{}; ///< by curve; an empty list: all curves are of the default kind
+  std::vector<RegionLoss> losses{}; ///< what regions have lost where nodes were joined or wedges cut, place by place
   bool empty() const { return arcs.empty(); }
 };
 
@@ -135,6 +140,7 @@ struct AbsorbedFaces {
   double area = 0;
   double largest = 0; ///< area of the largest face
   Vec2 place;         ///< on the boundary of the largest face
+  std::vector<RegionLoss> faces{};
 };
 
 /// @brief The regions into which a shape is divided, such as materials. Region 0 is the rest, which no other region

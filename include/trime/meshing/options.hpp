@@ -5,6 +5,7 @@
 #include "trime/boundary/features.hpp"
 #include "trime/cleanup/cleanup_counts.hpp"
 #include "trime/core/types.hpp"
+#include "trime/geometry/region_loss.hpp"
 #include "trime/mesh/distributed_mesh.hpp"
 #include "trime/mesh/quality.hpp"
 #include "trime/polygon/loop_summary.hpp"
@@ -88,6 +89,7 @@ struct MeshResult {
   double shape_area = 0; ///< area of the meshed shape, without dropped islands but with filled lakes
   boundary::FeatureReport features;
   std::vector<RegionSummary> regions; ///< in the order of geometry::Regions::names; empty if there is only one
+  std::vector<geometry::RegionLoss> region_losses; ///< in the order of loser, winner and reason, each at most once
 };
 
 } // namespace trime::meshing
