@@ -16,7 +16,10 @@ using geometry::Vec2;
 namespace {
 
 // [rounds] Each round holds the sites that would come too near to others; then nothing moves.
-constexpr int most_rounds = 8;
+constexpr int most_rounds = 12;
+
+// [rounds] Later rounds hold all sites of an interface on which a site is held.
+constexpr int rounds_of_sites = 5;
 
 // [steps] The first step leaves about the square of the relative shift; two more reach the accuracy of numbers.
 constexpr int newton_steps = 4;
@@ -171,6 +174,11 @@ void BoundaryRefiner::keep_areas() {
       return;
     for (std::size_t k = 0; k < given.size(); ++k)
       sites_[static_cast<LocalIndex>(k)].position = given[k];
+    for (const Chain& chain : chains)
+      if (round + 1 >= rounds_of_sites &&
+          std::ranges::any_of(chain.sites, [&](LocalIndex site) { return is_held[site] != 0; }))
+        for (const LocalIndex site : chain.sites)
+          is_held[site] = 1;
   }
 }
 

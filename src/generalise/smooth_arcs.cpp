@@ -3,10 +3,12 @@
 
 #include "core/angle.hpp"
 #include "generalise/meeting_pieces.hpp"
+#include "generalise/rules.hpp"
 #include "trime/core/types.hpp"
 #include "trime/geometry/piece_tree.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -21,21 +23,21 @@ using geometry::Vec2;
 /// Holds arcs, some of them smooth, and the given form of each.
 class SmoothArcs {
 public:
-  SmoothArcs(const std::vector<InnerArc>& given, const Boundary& boundary)
-      : given_(given), boundary_(boundary), arcs_(given), is_smooth_(given.size(), 0) {
+  SmoothArcs(const std::vector<InnerArc>& given, const Boundary& boundary, const FlowRequest& request,
+             const geometry::Lattice& lattice)
+      : given_(given), boundary_(boundary), request_(request), lattice_(lattice), arcs_(given),
+        is_smooth_(given.size(), 0), rounds_(given.size(), 0) {
     for (const InnerArc& arc : given)
       if (!arc.closed)
         for (const Vec2 node : {arc.pieces.front().start, arc.pieces.back().end})
           nodes_[{node.x, node.y}];
   }
 
-  void set(std::size_t arc, std::vector<Piece> pieces) {
-    arcs_[arc].pieces = std::move(pieces);
-    is_smooth_[arc] = 1;
-  }
-
-  /// Gives arcs their given form where curves would cross. Each round takes at least one of them.
+  /// Smooths arcs less where curves would cross, and in the end not at all. Each round changes at least one of them.
   std::vector<InnerArc> result() {
+    for (std::size_t k = 0; k < arcs_.size(); ++k)
+      if (given_[k].left != given_[k].right)
+        smooth(k);
     while (std::ranges::any_of(is_smooth_, [](char is) { return is != 0; })) {
       std::vector<char> is_bad(arcs_.size(), 0);
       find_crossings(is_bad);
@@ -43,8 +45,8 @@ public:
       bool any = false;
       for (std::size_t k = 0; k < arcs_.size(); ++k)
         if (is_bad[k] != 0 && is_smooth_[k] != 0) {
-          arcs_[k] = given_[k];
-          is_smooth_[k] = 0;
+          ++rounds_[k];
+          smooth(k);
           any = true;
         }
       if (!any)
@@ -54,6 +56,19 @@ public:
   }
 
 private:
+  void smooth(std::size_t arc) {
+    arcs_[arc] = given_[arc];
+    is_smooth_[arc] = 0;
+    if (rounds_[arc] == GeneraliseRules::flow_rounds)
+      return;
+    FlowRequest request = request_;
+    request.reach = std::ldexp(request_.reach, -rounds_[arc]);
+    if (auto pieces = smoothed_arc(given_[arc], request, lattice_)) {
+      arcs_[arc].pieces = *std::move(pieces);
+      is_smooth_[arc] = 1;
+    }
+  }
+
   /// Marks arcs that meet a smooth one outside of their nodes.
   void find_crossings(std::vector<char>& is_bad) const {
     Boundary all = boundary_;
@@ -135,8 +150,11 @@ private:
 
   const std::vector<InnerArc>& given_;
   const Boundary& boundary_;
+  const FlowRequest& request_;
+  const geometry::Lattice& lattice_;
   std::vector<InnerArc> arcs_;
   std::vector<char> is_smooth_; // by arc
+  std::vector<int> rounds_;     // by arc: how often its reach was halved
   Arms nodes_;                  // without arms
 };
 
@@ -144,12 +162,7 @@ private:
 
 std::vector<InnerArc> smooth_arcs(const std::vector<InnerArc>& arcs, const Boundary& boundary,
                                   const FlowRequest& request, const geometry::Lattice& lattice) {
-  SmoothArcs smooth(arcs, boundary);
-  for (std::size_t k = 0; k < arcs.size(); ++k)
-    if (arcs[k].left != arcs[k].right)
-      if (auto pieces = smoothed_arc(arcs[k], request, lattice))
-        smooth.set(k, *std::move(pieces));
-  return smooth.result();
+  return SmoothArcs(arcs, boundary, request, lattice).result();
 }
 
 } // namespace trime::generalise
