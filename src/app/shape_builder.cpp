@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/shape_builder.hpp"
 
+#include "app/inside_builder.hpp"
 #include "boundary/rules.hpp"
 #include "comm/agree.hpp"
 #include "contours/faults.hpp"
@@ -15,7 +16,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <set>
 #include <span>
 
@@ -24,8 +24,6 @@ namespace {
 
 // [h] Where nothing is simplified, rings that touch are separated by this: triangles around the gap are about as small.
 constexpr double kept_gap = 0.1;
-// [warnings] Each one names a pair of regions that share an area.
-constexpr std::size_t most_overlaps = 3;
 // [h] Faces between regions that are narrower belong to the region next to them. Not measured.
 constexpr double narrowest_face = 0.1;
 // [mean h] Where the size varies, it may be so small at a face. Not measured.
@@ -204,125 +202,6 @@ shape::Part build_part(const PartOptions& part, const contours::Contour& contour
   return shape::Part::contour(part.name, contour, place, frame, touches);
 }
 
-/// The name of a curve or a region: NAME, or NAME.VALUE for a value of an attribute.
-std::string name_of_value(const std::string& name, int marker, const contours::Contour& contour) {
-  const std::vector<std::string>& values = contour.marker_names;
-  return marker == 0      ? name
-         : values.empty() ? fmt::format("{}.{}", name, marker)
-                          : name + "." + values[static_cast<std::size_t>(marker - 1)];
-}
-
-/// The curves NAME, or NAME.VALUE for each value of an attribute, in the order of their first lines.
-void add_lines(const CurveOptions& options, const contours::Contour& contour, const contours::Normalization& place,
-               const geometry::Frame& frame, shape::InnerParts& parts) {
-  std::map<int, std::size_t> number_of; // by marker
-  std::vector<std::string> names;
-  std::vector<std::vector<shape::CurveLine>> lines;
-  for (const contours::ContourRing& ring : contour.rings) {
-    const int marker = ring.markers.empty() ? 0 : ring.markers.front();
-    const auto [found, is_new] = number_of.try_emplace(marker, names.size());
-    if (is_new) {
-      names.push_back(name_of_value(options.name, marker, contour));
-      lines.emplace_back();
-    }
-    shape::CurveLine& line = lines[found->second].emplace_back();
-    line.closed = !ring.open;
-    for (std::size_t k = 0; k < ring.points.size(); ++k) {
-      line.points.push_back(place.apply(ring.points[k]));
-      line.labels.push_back(contours::where(contour, ring.lines[k]));
-    }
-  }
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    parts.curves.push_back(shape::Part::curve(names[k], std::move(lines[k]), frame));
-    parts.clip.push_back(options.clip ? 1 : 0);
-    parts.kinds.push_back(options.kind);
-  }
-}
-
-/// The polygons of a file by the value of their attribute, in the order of the first ring of each.
-std::vector<std::pair<std::string, contours::Contour>> divided(const std::string& name,
-                                                               const contours::Contour& contour) {
-  std::map<int, std::size_t> number_of; // by marker
-  std::vector<std::pair<std::string, contours::Contour>> all;
-  for (const contours::ContourRing& ring : contour.rings) {
-    const int marker = ring.markers.empty() ? 0 : ring.markers.front();
-    const auto [found, is_new] = number_of.try_emplace(marker, all.size());
-    if (is_new) {
-      contours::Contour& one = all.emplace_back(name_of_value(name, marker, contour), contours::Contour()).second;
-      one.source = contour.source;
-      one.features = contour.features;
-      one.crs = contour.crs;
-      one.is_map = contour.is_map;
-      one.is_raster = contour.is_raster;
-      one.in_degrees = contour.in_degrees;
-    }
-    contours::ContourRing& copy = all[found->second].second.rings.emplace_back(ring);
-    copy.markers.clear();
-  }
-  return all;
-}
-
-void tell_of_file(const contours::Contour& contour, Log& log) {
-  for (const std::string& warning : contour.warnings)
-    log.warning("{}", warning);
-}
-
-/// Says which curves do not lie inside, and where their names are lost.
-void tell_of(const geometry::InnerCurves& curves, Log& log) {
-  std::vector<char> is_inside(curves.names.size(), 0);
-  for (const geometry::InnerArc& arc : curves.arcs)
-    for (const geometry::Piece& piece : arc.pieces)
-      if (piece.part >= 0)
-        is_inside[static_cast<std::size_t>(piece.part)] = 1;
-  for (std::size_t k = 0; k < curves.on_boundary.size(); ++k) {
-    if (curves.outside[k] > 0)
-      log.summary("curve '{}': a length of {:.6g} lies outside of the shape and is left out", curves.names[k],
-                  curves.outside[k]);
-    if (is_inside[k] == 0 && curves.on_boundary[k] > 0 && !(curves.outside[k] > 0)) {
-      log.summary("curve '{}' lies on the boundary of the shape; the edges there have only the name of the boundary",
-                  curves.names[k]);
-      continue;
-    }
-    if (curves.on_boundary[k] > 0)
-      log.warning(
-          "curve '{}': a length of {:.6g} lies on the boundary of the shape; the edges there have only the name "
-          "of the boundary",
-          curves.names[k], curves.on_boundary[k]);
-    if (is_inside[k] == 0)
-      log.warning("curve '{}' has no edges: no part of it lies inside the shape and away from other curves",
-                  curves.names[k]);
-  }
-}
-
-/// Says what regions share, what of them lies outside, and how large they are.
-void tell_of(const geometry::Regions& regions, Log& log) {
-  if (!regions.any())
-    return;
-  std::vector<geometry::RegionOverlap> overlaps = regions.overlaps;
-  std::stable_sort(overlaps.begin(), overlaps.end(), [](const auto& a, const auto& b) { return a.area > b.area; });
-  for (std::size_t k = 0; k < std::min(overlaps.size(), most_overlaps); ++k) {
-    const std::string& first = regions.names[static_cast<std::size_t>(overlaps[k].first)];
-    log.warning("the regions '{}' and '{}' share an area of {:.6g}, for example at {}; it belongs to '{}', which comes "
-                "first",
-                first, regions.names[static_cast<std::size_t>(overlaps[k].second)], overlaps[k].area,
-                Place(overlaps[k].place, 6), first);
-  }
-  if (overlaps.size() > most_overlaps)
-    log.warning("{} more pairs of regions share smaller areas, which belong to the first region of each pair",
-                overlaps.size() - most_overlaps);
-  if (const geometry::AbsorbedFaces& absorbed = regions.absorbed; absorbed.count > 0)
-    log.summary(
-        "{} part{} of regions with a total area of {:.6g} {} smaller or narrower than the triangles and {} to the "
-        "region next to {}; the largest has an area of {:.6g} and lies at {}. keep_features = true keeps all",
-        absorbed.count, absorbed.count == 1 ? "" : "s", absorbed.area, absorbed.count == 1 ? "is" : "are",
-        absorbed.count == 1 ? "belongs" : "belong", absorbed.count == 1 ? "it" : "them", absorbed.largest,
-        Place(absorbed.place, 6));
-  for (std::size_t k = 1; k < regions.names.size(); ++k)
-    if (regions.outside[k] > 0)
-      log.summary("region '{}': an area of {:.6g} lies outside of the shape and is left out", regions.names[k],
-                  regions.outside[k]);
-}
-
 /// Sets which faces between regions are too small for the triangles.
 void set_least_faces(const RunOptions& options, const geometry::Box& container, shape::Division& division) {
   const boundary::FeatureOptions& features = options.mesh.features;
@@ -359,7 +238,7 @@ std::string read_shared(const std::string& path, const comm::Communicator& comm)
 
 namespace {
 
-/// Makes parts and curves from contours, one after the other, and keeps what messages and other files need of them.
+/// Makes parts from contours, one after the other, and keeps what messages and other files need of them.
 class PartsMaker {
 public:
   PartsMaker(const RunOptions& options, const geometry::Frame& frame, bool keeps_places, Log& log)
@@ -383,69 +262,21 @@ public:
     tell_of(parts.back(), log_);
   }
 
-  /// Adds a region, or one for each value of the attribute of its file. @pre all parts were added
-  void add_region(const RegionOptions& region, const contours::Contour& contour) {
-    shape::Division& division = inner.division;
-    if (region.file.empty()) {
-      division.regions.push_back({region.name, region.geometry});
-      return;
-    }
-    const contours::Normalization place =
-        region.normalize_with.empty() ? contours::Normalization{} : places.at(region.normalize_with);
-    tell_of_file(contour, log_);
-    if (keeps_places_)
+  /// Notes the contour of a curve or a region that is normalised with a part. Returns its place. @pre all parts were
+  /// added
+  contours::Normalization place_of(const std::string& part, const contours::Contour& contour) {
+    const contours::Normalization place = part.empty() ? contours::Normalization{} : places.at(part);
+    if (keeps_places_ && !contour.rings.empty())
       found.add(contour, place);
-    add_area_limits(region, contour, place.scale);
-    const bool share_borders = contour.is_map || (!contour.marker_names.empty() && !contour.is_raster);
-    for (const auto& [name, polygons] : divided(region.name, contour)) {
-      division.regions.push_back({name, {}, static_cast<int>(division.parts.size())});
-      division.parts.push_back(
-          shape::Part::contour(name, polygons, place, frame_,
-                               {.dissolve = share_borders, .faults = contours::Faults::refuse, .keep_touches = true}));
-      for (const std::string& warning : division.parts.back().warnings())
-        log_.warning("{}", warning);
-    }
-  }
-
-  /// @pre all parts were added
-  void add_curve(const CurveOptions& curve, const contours::Contour& contour) {
-    const contours::Normalization place =
-        curve.normalize_with.empty() ? contours::Normalization{} : places.at(curve.normalize_with);
-    add_lines(curve, contour, place, frame_, inner);
-    tell_of_file(contour, log_);
-    if (keeps_places_)
-      found.add(contour, place);
+    return place;
   }
 
   std::vector<shape::Part> parts;
-  shape::InnerParts inner;
   std::map<std::string, contours::Normalization> places; // by name of the part
   std::vector<NormalizedPart> normalized;
   UserPlaces found;
-  std::vector<sizing::RegionBound> bounds; // by the files of regions
 
 private:
-  /// Notes the largest sizes in the regions of a file. @param scale lengths in the container over those in the file
-  void add_area_limits(const RegionOptions& region, const contours::Contour& contour, double scale) {
-    if (contour.largest_areas.empty()) {
-      if (region.area_limits)
-        log_.warning("{}: 'area_limits = true' in [region.{}] has no effect: no region point has a largest area",
-                     contour.source, region.name);
-      return;
-    }
-    if (!region.area_limits) {
-      log_.warning("{}: the largest areas of the region points are not used; 'area_limits = true' in [region.{}] "
-                   "bounds the size by them",
-                   contour.source, region.name);
-      return;
-    }
-    const std::vector<std::pair<std::string, contours::Contour>> regions = divided(region.name, contour);
-    for (std::size_t k = 0; k < regions.size(); ++k) // both are in the order of the markers
-      if (const double area = contour.largest_areas[k]; std::isfinite(area))
-        bounds.push_back({static_cast<int>(inner.division.regions.size() + k) + 1,
-                          scale * std::sqrt(4 * area / std::numbers::sqrt3)}); // an equilateral triangle
-  }
-
   const RunOptions& options_;
   const geometry::Frame& frame_;
   const shape::Region region_;
@@ -467,13 +298,18 @@ ShapeInput read_shape(const RunOptions& given, ShapeUse use, const comm::Communi
   PartsMaker made(options, frame, comm.is_root(), log); // messages of the parts speak of their files already
   for (std::size_t k = 0; k < options.parts.size(); ++k)
     made.add_part(k, contours[k]);
-  for (std::size_t k = 0; k < options.curves.size(); ++k)
-    made.add_curve(options.curves[k], contours[options.parts.size() + k]);
-  for (std::size_t k = 0; k < options.regions.size(); ++k)
-    made.add_region(options.regions[k], contours[options.parts.size() + options.curves.size() + k]);
-  made.inner.division.rest = options.rest;
-  made.inner.division.cover_all = options.regions_cover_all;
-  set_least_faces(options, frame.container(), made.inner.division);
+  InsideBuilder inside(frame, log);
+  for (std::size_t k = 0; k < options.curves.size(); ++k) {
+    const contours::Contour& contour = contours[options.parts.size() + k];
+    inside.add_curve(options.curves[k], contour, made.place_of(options.curves[k].normalize_with, contour));
+  }
+  for (std::size_t k = 0; k < options.regions.size(); ++k) {
+    const contours::Contour& contour = contours[options.parts.size() + options.curves.size() + k];
+    inside.add_region(options.regions[k], contour, made.place_of(options.regions[k].normalize_with, contour));
+  }
+  inside.parts.division.rest = options.rest;
+  inside.parts.division.cover_all = options.regions_cover_all;
+  set_least_faces(options, frame.container(), inside.parts.division);
   if (!map.crs.empty())
     made.found.set_on_earth([map](geometry::Vec2 place) { return on_earth(map, place); });
   places = std::move(made.found);
@@ -482,13 +318,12 @@ ShapeInput read_shape(const RunOptions& given, ShapeUse use, const comm::Communi
                    made.places[options.fixed_points.normalize_with],
                    std::move(made.normalized),
                    std::move(map),
-                   std::move(made.bounds)};
+                   std::move(inside.bounds)};
   if (use == ShapeUse::queries)
-    input.shape.emplace(std::move(made.parts), options.geometry, frame, made.inner);
+    input.shape.emplace(std::move(made.parts), options.geometry, frame, inside.parts);
   else
-    input.alone.emplace(shape::domain_of(std::move(made.parts), options.geometry, frame, made.inner));
-  tell_of(input.domain().curves(), log);
-  tell_of(input.domain().regions(), log);
+    input.alone.emplace(shape::domain_of(std::move(made.parts), options.geometry, frame, inside.parts));
+  tell_of_inside(input.domain(), log);
   return input;
 }
 

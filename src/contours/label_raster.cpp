@@ -162,6 +162,7 @@ Contour parse_grid_regions(std::string_view text, const std::string& source) {
   RingBuilder builder(contour);
   BorderTracer(Labels(grid, [&](double value) { return markers.at(value); }), builder).trace();
   builder.finish();
+  std::ranges::stable_sort(contour.rings, {}, [](const ContourRing& ring) { return ring.markers.front(); });
   check_reading(contour, Faults::refuse, "cells with a label");
   return contour;
 }

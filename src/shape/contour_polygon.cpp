@@ -92,7 +92,8 @@ public:
         polygon.markers.push_back(markers[at(given.nearest(0.5 * (s.a + s.b)).segment)]);
     polygon.marker_names = contour_.marker_names;
     polygon.notes = std::move(notes);
-    orient(polygon);
+    if (!keeps_touches) // the rings of a raster have the cells on their left; where rings touch, nesting is unclear
+      orient(polygon);
     messages_.tell_pieces(polygon, rings_, warnings);
     return polygon;
   }

@@ -73,7 +73,8 @@ struct Contour {
   std::string crs{}; ///< name of the reference system of the coordinates, as in the file; empty: unknown
   bool is_map =
       false; ///< true if the rings come from a map: there may be several polygons, and coordinates may be degrees
-  bool is_raster = false;       ///< true if the rings run along the sides of cells; then they may meet in vertices
+  bool is_raster = false;       ///< true if the rings run along the sides of cells, which lie on their left; such rings
+                                ///< may meet in vertices
   bool in_degrees = false;      ///< true if ContourRing::in_file holds longitudes and latitudes
   bool joins_date_line = false; ///< true if lines that end at longitudes 180 and -180 were joined, in degrees
   FaultList faults{};           ///< faults that the reader has found; what is faulty is not in `rings`

@@ -15,8 +15,8 @@ namespace trime::contours {
 namespace {
 
 using geometry::Vec2;
-using testing::HasSubstr;
-using testing::ThrowsMessage;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
 
 std::string grid(int columns, int rows, const std::string& values, const std::string& more = "") {
   return "ncols " + std::to_string(columns) + "\nnrows " + std::to_string(rows) +
@@ -41,14 +41,14 @@ TEST(LabelRaster, EachLabelIsAPolygon) {
   for (const ContourRing& ring : read.rings)
     if (ring.markers[0] == 2) {
       EXPECT_THAT(ring.points,
-                  testing::UnorderedElementsAre(Vec2{10.5, 20}, Vec2{11, 20}, Vec2{11, 20.5}, Vec2{10.5, 20.5}));
+                  ::testing::UnorderedElementsAre(Vec2{10.5, 20}, Vec2{11, 20}, Vec2{11, 20.5}, Vec2{10.5, 20.5}));
     }
 }
 
 TEST(LabelRaster, BordersMeetInVertices) {
   const Contour read = parse_grid_regions(grid(2, 2, "1 1\n2 3\n"), "a.asc");
   for (const ContourRing& ring : read.rings) // the middle of the raster is a vertex of all three
-    EXPECT_THAT(ring.points, testing::Contains(Vec2{10.5, 20.5}));
+    EXPECT_THAT(ring.points, ::testing::Contains(Vec2{10.5, 20.5}));
 }
 
 TEST(LabelRaster, CellsThatMeetInACornerStayApart) {
@@ -78,7 +78,7 @@ TEST(LabelRaster, RandomLabelsCoverAllCells) {
 TEST(LabelRaster, MayGiveCentresAndTwoSizes) {
   const Contour read = parse_grid("NCOLS 1\nNROWS 2\nXLLCENTER 0.5\nYLLCENTER 1\nDX 1\nDY 2\n5\n5\n", "a.asc");
   ASSERT_EQ(read.rings.size(), 1U);
-  EXPECT_THAT(read.rings[0].points, testing::UnorderedElementsAre(Vec2{0, 0}, Vec2{1, 0}, Vec2{1, 4}, Vec2{0, 4}));
+  EXPECT_THAT(read.rings[0].points, ::testing::UnorderedElementsAre(Vec2{0, 0}, Vec2{1, 0}, Vec2{1, 4}, Vec2{0, 4}));
 }
 
 TEST(LabelRaster, RefusesOtherTexts) {

@@ -14,8 +14,8 @@
 namespace trime::contours {
 namespace {
 
-using testing::HasSubstr;
-using testing::ThrowsMessage;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
 
 /// A square of side 4 that a segment from (2, 0) to (2, 4) divides; a square hole in the left half; a segment with a
 /// free end in the right half.
@@ -102,7 +102,7 @@ TEST(PolyRegions, RefusePointsInNoFaceOrTwiceInOne) {
   EXPECT_THAT(reading("1\n1 5 5 1\n"), ThrowsMessage<GeometryError>(HasSubstr("(5, 5) lies outside of all segments")));
   EXPECT_THAT(reading("1\n1 1 1.2 1\n"), ThrowsMessage<GeometryError>(HasSubstr("(1, 1.2) lies in a hole")));
   EXPECT_THAT(reading("2\n1 3 1 1\n2 3 2 1\n"),
-              ThrowsMessage<GeometryError>(testing::AllOf(HasSubstr("(3, 2) and (3, 1)"), HasSubstr("same face"))));
+              ThrowsMessage<GeometryError>(::testing::AllOf(HasSubstr("(3, 2) and (3, 1)"), HasSubstr("same face"))));
   EXPECT_THAT(reading("1\n1 3 1 x\n"), ThrowsMessage<GeometryError>(HasSubstr("a.poly:30")));
 }
 
