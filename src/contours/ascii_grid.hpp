@@ -25,7 +25,7 @@ struct AsciiGrid {
 };
 
 /// @brief Reads the head (`ncols`, `nrows`, `xllcorner` or `xllcenter`, `yllcorner` or `yllcenter`, `cellsize` or `dx`
-/// and `dy`, and `NODATA_value` if it is given) and the values, of which a line may hold any number.
+/// and `dy`, and `NODATA_value` if it is given) and the values. A line may hold any number of values.
 /// @throws GeometryError `source:line: ...` for any other text, and for more than 2^26 cells
 /// Cost: O(cells).
 AsciiGrid read_ascii_grid(std::string_view text, const std::string& source);

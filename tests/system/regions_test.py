@@ -342,6 +342,33 @@ class OfTriangle(RegionsTest):
             self.assertFalse((self.directory / "mesh.h5").exists())
 
 
+class OfRaster(RegionsTest):
+    """A raster of labels: areas are those of the cells, also where cells of one label meet in a corner only."""
+    SIDE, LABELS = 24, (3, 5, 40)
+
+    def run_raster(self, cells, ranks=1):
+        text = f"ncols {self.SIDE}\nnrows {self.SIDE}\nxllcorner 0\nyllcorner 0\ncellsize {1 / self.SIDE!r}\n"
+        (self.directory / "a.asc").write_text(text + "\n".join(" ".join(map(str, row)) for row in cells) + "\n")
+        return self.run_config("[shape.map]\ntype = contour\nfile = a.asc\n[region.r]\nfile = a.asc\n", points=6000,
+                               shape="geometry = map", ranks=ranks)
+
+    def test_areas_of_labels(self):
+        coarse = np.random.default_rng(7).choice(self.LABELS, size=(self.SIDE // 2, self.SIDE // 2))
+        cells = coarse.repeat(2, 0).repeat(2, 1)
+        seen = set()
+        for ranks in (1, 3):
+            done = self.run_raster(cells, ranks)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            mesh = Mesh(self.directory / "mesh.h5")
+            seen.add(mesh.points.tobytes() + mesh.triangles.tobytes() + mesh.region.tobytes())
+        self.assertEqual(len(seen), 1)
+        self.assertEqual([mesh.names[number] for number in sorted(mesh.names)],
+                         ["map"] + [f"r.{label}" for label in self.LABELS])
+        self.check_areas(mesh, {f"r.{label}": (cells == label).sum() / self.SIDE ** 2 for label in self.LABELS})
+        judged = subprocess.run([CHECK, self.directory / "mesh.h5"], capture_output=True, text=True, check=False)
+        self.assertEqual(judged.returncode, 0, judged.stdout + judged.stderr)
+
+
 class BadInput(RegionsTest):
     def test_names_that_do_not_exist(self):
         for geometry, word in (("nowhere", "nowhere"), ("difference(domain, nowhere)", "nowhere"), ("", "geometry")):

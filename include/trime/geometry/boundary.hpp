@@ -122,7 +122,7 @@ struct InnerCurves {
   std::vector<double> on_boundary{}, outside{};
   std::int64_t joined_nodes = 0; ///< nodes that simplification has joined with others, because an edge between them was
                                  ///< far shorter than the triangles
-  std::vector<CurveKind> kinds{}; ///< by curve; an empty list: all curves are of the default kind
+  std::vector<CurveKind> kinds{};   ///< by curve; an empty list: all curves are of the default kind
   std::vector<RegionLoss> losses{}; ///< what regions have lost where nodes were joined or wedges cut, place by place
   bool empty() const { return arcs.empty(); }
 };
