@@ -323,7 +323,7 @@ class Curves(unittest.TestCase):
                  (section("c", "point.xy"), 3, "two different points"),
                  (section("c", "nan.xy"), 3, "finite"),
                  ("[curve.c]\nclip = true\n", 2, "needs 'file'"),
-                 (section("c", "x.poly"), 2, "known are .xy, .geojson and .shp"),
+                 (section("c", "x.msh"), 2, "known are .xy, .geojson, .poly and .shp"),
                  (section("union", "x.xy"), 2, "cannot name a curve"),
                  (section("c", "x.xy", "attribute = kind"), 2, "attribute"),
                  (section("c", "x.xy", "normalize_with = other"), 2, "normalize"),
