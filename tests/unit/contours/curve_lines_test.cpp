@@ -47,7 +47,7 @@ TEST(CurveLines, AreRefused) {
   EXPECT_THROW(parse_curves("1 1\nhello\n", "f.xy"), GeometryError);
   EXPECT_THROW(parse_curves("0 0\n1 inf\n", "f.xy"), GeometryError);
   EXPECT_THROW(parse_curves("0 0\n1 1\n", "f.xy", "kind"), ConfigError);
-  EXPECT_THROW(read_curves("f.poly"), ConfigError);
+  EXPECT_THROW(read_curves("f.msh"), ConfigError);
 }
 
 } // namespace
