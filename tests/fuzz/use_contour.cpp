@@ -16,8 +16,8 @@ void use(const contours::Contour& contour) {
   std::size_t vertices = 0;
   for (const contours::ContourRing& ring : contour.rings) {
     vertices += ring.points.size();
-    TRIME_ASSERT(ring.points.size() >= 3 && ring.lines.size() == ring.points.size(), "{} vertices, {} lines",
-                 ring.points.size(), ring.lines.size());
+    TRIME_ASSERT(ring.points.size() >= (ring.open ? 2U : 3U) && ring.lines.size() == ring.points.size(),
+                 "{} vertices, {} lines", ring.points.size(), ring.lines.size());
     TRIME_ASSERT(ring.markers.empty() || ring.markers.size() == ring.points.size(), "{} markers", ring.markers.size());
     for (const geometry::Vec2 p : ring.points)
       TRIME_ASSERT(std::isfinite(p.x) && std::isfinite(p.y), "({}, {})", p.x, p.y);
