@@ -40,7 +40,7 @@ void read_file_of(const Settings& settings, const std::string& section, const fs
     read.attribute = attribute;
 }
 
-/// Whether a curve is split, and a weir, which must be split.
+/// Returns the kind of a curve: whether it is split, and whether it is a weir. A weir that is not split is a problem.
 geometry::CurveKind kind_of(const Settings& settings, const std::string& section, Diagnostics& problems) {
   geometry::CurveKind kind;
   kind.split = settings.boolean(section, "split");

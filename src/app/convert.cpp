@@ -137,7 +137,7 @@ std::string regions_text(const Metadata& metadata) {
   return text;
 }
 
-/// What the regions lost to each other, if the file says so.
+/// Returns the table of the areas that regions lost to each other; an empty text if the file has none.
 std::string losses_text(const Metadata& metadata) {
   const char* table = "region_losses";
   if (!io::find_group(metadata, table))

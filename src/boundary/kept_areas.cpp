@@ -83,7 +83,7 @@ std::vector<BoundaryRefiner::Chain> BoundaryRefiner::simplified_chains() const {
   return chains;
 }
 
-/// What regions lose to each other on the interfaces, and where their nodes were joined.
+/// Returns the areas that regions lose to each other on the interfaces, and at nodes that became one.
 std::vector<geometry::RegionLoss> BoundaryRefiner::losses() const {
   std::vector<geometry::RegionLoss> losses = curves_->losses();
   for (std::size_t loop = boundary_loops_; loop < loop_first_.size(); ++loop) {

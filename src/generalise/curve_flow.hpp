@@ -30,7 +30,7 @@ struct SmoothedCurves {
 std::unique_ptr<SmoothedCurves> smooth_ragged_runs(const geometry::Boundary& boundary, const sizing::SizeField& size,
                                                    const geometry::Lattice& lattice, double reach);
 
-/// What the smoothing of arcs needs to know.
+/// Holds the input of the smoothing of arcs.
 struct FlowRequest {
   const sizing::SizeField& size;
   geometry::Box bounds;                 ///< no vertex leaves this box

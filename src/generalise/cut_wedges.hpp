@@ -11,7 +11,7 @@
 
 namespace trime::generalise {
 
-/// What the simplification of arcs needs to know.
+/// Holds the input of the simplification of arcs.
 struct ArcRequest {
   const sizing::SizeField& size;
   const geometry::Lattice& lattice;

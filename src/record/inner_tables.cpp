@@ -79,7 +79,7 @@ io::Metadata with_inner_edges(io::Metadata metadata, const Origin& origin) {
 
 namespace {
 
-/// Who lost what to whom: numbers of the regions, the reason, the sum, and the largest place.
+/// Returns the table of losses: the numbers of both regions, the reason, the sum of the areas, and the largest place.
 io::MetadataGroup losses_group(const std::vector<geometry::RegionLoss>& losses) {
   using geometry::RegionLoss;
   return {"region_losses",

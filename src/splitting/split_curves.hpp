@@ -16,7 +16,7 @@
 
 namespace trime::splitting {
 
-/// What the mesh was made of.
+/// Holds what the mesh was made of, as far as the split needs it.
 struct SplitInput {
   const std::vector<geometry::CurveKind>& kinds;  ///< kinds of the curves, by their numbers
   std::int32_t parts;                             ///< number of parts of the shape

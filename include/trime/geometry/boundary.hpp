@@ -138,9 +138,9 @@ struct RegionOverlap {
 struct AbsorbedFaces {
   std::int64_t count = 0;
   double area = 0;
-  double largest = 0; ///< area of the largest face
-  Vec2 place;         ///< on the boundary of the largest face
-  std::vector<RegionLoss> faces{};
+  double largest = 0;              ///< area of the largest face
+  Vec2 place;                      ///< on the boundary of the largest face
+  std::vector<RegionLoss> faces{}; ///< the region that loses each face, and the one that gets it
 };
 
 /// @brief The regions into which a shape is divided, such as materials. Region 0 is the rest, which no other region

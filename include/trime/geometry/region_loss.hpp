@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a region of a shape loses to another one in the mesh, and why.
+// Says which area a region of a shape loses to another region in the mesh, and for which reason.
 #pragma once
 
 #include "trime/geometry/vec2.hpp"
@@ -11,7 +11,7 @@
 
 namespace trime::geometry {
 
-/// Why an area belongs to another region in the mesh than in the shape as it was given.
+/// The reason for which an area belongs to another region in the mesh than in the shape as it was given.
 enum class LossReason : std::int32_t {
   crumb,       ///< a part of a region with a short perimeter
   sliver,      ///< a part of a region that is narrower than the triangles
