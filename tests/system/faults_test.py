@@ -60,7 +60,12 @@ class SmallDisk:
             pass
 
     def make_read_only(self):
-        subprocess.run(["mount", "-o", "remount,ro", self.path], check=True)
+        """As soon as it can be: a file that is open for writing, such as the run's first trial, keeps it busy."""
+        end = time.monotonic() + SOON
+        while subprocess.run(["mount", "-o", "remount,ro", self.path], check=False).returncode != 0:
+            if time.monotonic() > end:
+                raise TimeoutError(f"{self.path} does not become read-only within {SOON} s")
+            time.sleep(0.002)
 
     def __exit__(self, *_):
         subprocess.run(["umount", "-l", self.path], check=False)
