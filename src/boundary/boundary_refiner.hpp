@@ -86,6 +86,9 @@ private:
   void cut_doubles(std::vector<Cut>& cuts) const;
   bool is_straight(LocalIndex chord) const;
   polygon::InnerChords inner_chords() const;
+  const geometry::Piece* piece_around(const Site& site) const;
+  std::int32_t track_of(const Site& site, const geometry::InnerArc& arc, std::int32_t loss,
+                        polygon::InnerChords& inner) const;
   void look_at_fresh(LocalIndex chord, std::vector<Cut>& cuts) const;
   std::vector<Cut> find_cuts(const std::vector<LocalIndex>& fresh_sites, const std::vector<LocalIndex>& fresh_chords);
   std::vector<LocalIndex> candidates(const std::vector<LocalIndex>& fresh_sites,

@@ -38,6 +38,13 @@ public:
   /// Removes the data of a site that is deleted or that another rank now owns.
   void forget(BoundaryName site) { known_.erase(site); }
 
+  /// Returns the name of a site inside that has not moved: that of a site on a curve, or mesh::fixed_site.
+  /// @param p its position in the container
+  BoundaryName name_inside(geometry::Vec2 p) const {
+    const LocalIndex site = sites_.inner.index_of(p);
+    return site < 0 ? BoundaryName{mesh::fixed_site} : name_on_curve(site);
+  }
+
   /// Stores edits of this rank's patches in a round (0, 1, ...), which finish() sends.
   void note(std::span<const SiteEdit> edits, int round);
   /// @brief Sends all edits to all ranks. Collective. O(edits on the boundary of all ranks); if there are any, also
@@ -58,6 +65,7 @@ private:
     std::uint64_t patch;
   };
   void carry_out(std::span<const Edit> edits, polygon::BoundaryChain& chain);
+  static std::vector<polygon::InnerMove> inner_moves(std::vector<Edit>& edits);
 
   const comm::Communicator& comm_;
   const polygon::BoundarySites& sites_;

@@ -104,6 +104,9 @@ struct CleanupRules {
   static constexpr int halvings = 3;
   /// [halvings] How often such a step is halved for sites on the boundary, in trials that are not thorough.
   static constexpr int slide_halvings = 1;
+  /// [h] Largest distance of a site on a simplified interface from its place before the clean-up. Such a site moves
+  /// parallel to the line between its neighbours, so it leaves the curve. Not measured.
+  static constexpr double longest_bent_slide = 0.3;
   /// [h] Longest step along the boundary.
   static constexpr double longest_slide = 0.2;
   /// [sweeps] Largest number of sweeps over the sites of bad triangles and their neighbours.
