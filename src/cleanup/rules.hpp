@@ -214,6 +214,9 @@ struct CleanupRules {
   /// [alpha] An operation that removes an obtuse triangle may leave other triangles up to this alpha. Measured together
   /// with near_reach_if_obtuse.
   static constexpr double alpha_for_obtuse = 1.28;
+  /// [alpha] By how much the largest alpha near a curve inside may rise in the first stage if the sum falls: where two
+  /// places are side by side, two operations are needed.
+  static constexpr double rise_at_curves = 0.03;
   /// [operations] As runners, in the last of these stages. Measured with finalists_at_last, first_of_two and
   /// reserved_for_obtuse: of 43 obtuse triangles of coasts 23 were left.
   static constexpr std::size_t runners_at_last = 16;
@@ -247,6 +250,9 @@ struct CleanupRules {
   /// [1] Share of the sites by which their number may fall, and by which it may rise if the user has not asked for a
   /// number of points.
   static constexpr double largest_loss = 0.005;
+  /// [sites] By how much more the number may rise for each edge on a curve or an interface inside, if the user has not
+  /// asked for a number of points. See StartRules::reserved_per_inner_edge, which leaves room if the user has.
+  static constexpr double inserted_per_inner_edge = 0.06;
   /// [1] Share of the sites that are kept back until the last stage, for places where only smaller triangles help.
   /// Measured: on North America with 17000 points the largest alpha was 1.38 with this share, and 1.61 with a smaller
   /// one.
