@@ -91,7 +91,7 @@ void PatchScore::list_near(const Patch& now, const BadPlace& place) {
       continue;
     in_score_[at(v)] = now.role[at(v)] >= VertexRole::scored;
     if (now.is_behind_wall(place.middle, now.mesh.position(v)))
-      continue; // sites on walls do not move, so the other side has nothing to do with this one
+      continue; // the other side feels little of what happens on this one: sites on walls only slide
     if (now.role[at(v)] != VertexRole::free ||
         !is_within(squared, obtuse_weight_ > 0 ? Rules::near_reach_if_obtuse : Rules::near_reach))
       continue;

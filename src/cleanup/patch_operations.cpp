@@ -245,7 +245,7 @@ void PatchOperations::divide_corner(const Patch& now, LocalIndex v, LocalIndex n
         all_.push_back({.removed = {far, -1}, .inserted = inside});
 }
 
-/// Corners between two curves inside, or between one and the boundary. Sites on curves do not move, so a site inside
+/// Corners between two curves inside, or between one and the boundary. Sites on curves only slide, so a site inside
 /// must do all.
 void PatchOperations::list_between_walls(const Patch& now, const Corners& worst) {
   const auto is_line = [&](LocalIndex a, LocalIndex b) {

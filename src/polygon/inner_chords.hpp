@@ -34,8 +34,8 @@ struct InnerMove {
   geometry::Vec2 position;
 };
 
-/// @brief The chords of all curves inside a shape, and the sites on the curves. The sites do not move before the
-/// clean-up. An end of a chord is one of `sites`, or a corner on the boundary. Invariant: the open diametral circle of
+/// @brief The chords of all curves inside a shape, and the sites on the curves. Only the clean-up moves
+/// the sites. An end of a chord is one of `sites`, or a corner on the boundary. Invariant: the open diametral circle of
 /// a chord contains no boundary site and no other end of a chord.
 struct InnerChords {
   /// Values of `track`; other values are indices into `circles`.

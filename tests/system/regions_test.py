@@ -200,6 +200,20 @@ class Regions(RegionsTest):
         self.assertEqual([mesh.euler(name) for name in ("core", "ring", "rest")], [1, 0, 0])
         self.assertEqual(mesh.junctions(), {})
 
+    def test_small_discs(self):
+        """Where few triangles lie across a disc, the clean-up must insert points, and move those on the interface."""
+        radii = [0.045 + 0.004 * k for k in range(9)]  # 4.5 to 7.7 edges
+        text = "".join(circle(f"c{k}", radius, f"{1 / 6 + k % 3 / 3!r} {1 / 6 + k // 3 / 3!r}")
+                       for k, radius in enumerate(radii))
+        text += region("discs", f"union({', '.join(f'c{k}' for k in range(9))})")
+        mesh = self.same_on_all(text, points=11500)
+        self.assertLessEqual(mesh.alpha(), 1.11)
+        ends = np.unique(mesh.edges)
+        for k, radius in enumerate(radii):
+            away = np.hypot(*(mesh.points[ends] - (1 / 6 + k % 3 / 3, 1 / 6 + k // 3 / 3)).T)
+            self.assertLessEqual(np.abs(away[away < 1 / 6] - radius).max(), 1e-12)
+        self.assertAlmostEqual(mesh.area("discs"), math.pi * sum(radius**2 for radius in radii), delta=0.02)
+
     def test_order_of_overlapping_regions(self):
         parts = rectangle("west", (0, 0), (0.6, 1)) + rectangle("east", (0.4, 0), (1, 1))
         for order, areas in (("ab", {"a": 0.6, "b": 0.4}), ("ba", {"a": 0.4, "b": 0.6})):
