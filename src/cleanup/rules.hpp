@@ -215,7 +215,8 @@ struct CleanupRules {
   /// with near_reach_if_obtuse.
   static constexpr double alpha_for_obtuse = 1.28;
   /// [alpha] By how much the largest alpha near a curve inside may rise in the first stage if the sum falls: where two
-  /// places are side by side, two operations are needed.
+  /// places are side by side, two operations are needed. Measured: in a mesh of 1e6 points with 500 discs inside 204
+  /// triangles had an alpha above 1.11 with this value, and 251 with 0.
   static constexpr double rise_at_curves = 0.03;
   /// [operations] As runners, in the last of these stages. Measured with finalists_at_last, first_of_two and
   /// reserved_for_obtuse: of 43 obtuse triangles of coasts 23 were left.
@@ -251,7 +252,7 @@ struct CleanupRules {
   /// number of points.
   static constexpr double largest_loss = 0.005;
   /// [sites] By how much more the number may rise for each edge on a curve or an interface inside, if the user has not
-  /// asked for a number of points. See StartRules::reserved_per_inner_edge, which leaves room if the user has.
+  /// asked for a number of points. If the user has, FitRules::reserved_per_inner_edge leaves room. Not measured.
   static constexpr double inserted_per_inner_edge = 0.06;
   /// [1] Share of the sites that are kept back until the last stage, for places where only smaller triangles help.
   /// Measured: on North America with 17000 points the largest alpha was 1.38 with this share, and 1.61 with a smaller

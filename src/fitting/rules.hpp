@@ -126,7 +126,8 @@ struct FitRules {
   /// where the sites on both sides do not fit to a round one, the clean-up inserts others. Measured: in a mesh of 1e6
   /// points with 500 discs inside 2100 triangles had an alpha above 1.11 without this reserve.
   static constexpr double reserved_per_inner_edge = 0.06;
-  /// [points] As reserved_per_inner_edge, for each end of a curve or an interface: a corner may need one more site.
+  /// [points] As reserved_per_inner_edge, for each end of a curve or an interface: a corner may need one more site. Not
+  /// measured.
   static constexpr double reserved_per_inner_end = 0.5;
   /// [points asked for] Largest share of the points that the start leaves for curves and interfaces. Not measured.
   static constexpr double reserved_for_inner_edges = 0.02;

@@ -71,7 +71,7 @@ struct InnerChords {
       ++high;
     return {low, high};
   }
-  /// Returns the index of the site at p, -1 if there is none. Cost: O(log sites).
+  /// Returns the index of the site at p, or -1 if no site is there. Cost: O(log sites).
   LocalIndex index_of(geometry::Vec2 p) const {
     const auto found = std::lower_bound(sites.begin(), sites.end(), p, geometry::lexicographically_less);
     return found != sites.end() && *found == p ? static_cast<LocalIndex>(found - sites.begin()) : -1;

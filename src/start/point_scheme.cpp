@@ -64,9 +64,9 @@ PointScheme::PointScheme(const fitting::LayoutContext& context, const StartOptio
   choose();
 }
 
-/// Points that are left to the clean-up, for smaller triangles where the boundary is ragged, and for the middle of
-/// small components: a share of the number of pieces and of components, and of the points at most; and for curves
-/// inside.
+/// Points that are left to the clean-up: for smaller triangles where the boundary is ragged, for the middle of small
+/// components, and for curves inside. Their number follows from the pieces, components and curves, and is a share of
+/// the points at most.
 GlobalId PointScheme::reserve() const {
   double pieces = 0;
   for (const geometry::Loop& loop : given_.given_boundary.loops)
