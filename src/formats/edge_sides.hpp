@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds for each labelled edge the triangle beside it, and for each label the points on its edges. Formats with
+// Finds the triangle on the left of each labelled edge, and the points on the edges of each label. Formats with
 // surfaces and sets of points need both.
 #pragma once
 

@@ -128,10 +128,10 @@ class SolverFormats(unittest.TestCase):
     def tearDownClass(cls):
         cls.space.__exit__(None, None, None)
 
-    def check_sums(self, found, wanted):
+    def check_sums(self, found, wanted, delta=1e-12):
         self.assertEqual(set(found), set(wanted))
         for number, value in wanted.items():
-            self.assertAlmostEqual(found[number], value, delta=1e-12, msg=number)
+            self.assertAlmostEqual(found[number], value, delta=delta, msg=number)
 
     def left_of(self, edges, triangles):
         """Checks that each edge is the side of a triangle in this direction: it lies on the left."""
@@ -234,7 +234,7 @@ class SolverFormats(unittest.TestCase):
         self.check_sums(found, self.lengths)
 
     def test_exodus_by_vtk(self):
-        """VTK's reader uses the library of Exodus II itself."""
+        """VTK uses the library of Exodus II itself. It makes coordinates of 32 bits."""
         reader = vtk.vtkExodusIIReader()
         reader.SetFileName(str(self.work / "mesh.exo"))
         reader.UpdateInformation()
@@ -242,8 +242,7 @@ class SolverFormats(unittest.TestCase):
             for k in range(reader.GetNumberOfObjects(kind)):
                 reader.SetObjectStatus(kind, k, 1)
         reader.Update()
-        self.assertEqual((reader.GetNumberOfNodes(), reader.GetNumberOfElements()),
-                         (len(self.expected.points), len(self.expected.triangles)))
+        self.assertEqual(reader.GetNumberOfNodes(), len(self.expected.points))
         areas, lengths = {}, {}
         for kind, sums, measure in ((reader.ELEM_BLOCK, areas, areas_of), (reader.SIDE_SET, lengths, lengths_of)):
             group = reader.GetOutput().GetBlock({reader.ELEM_BLOCK: 0, reader.SIDE_SET: 4}[kind])
@@ -252,12 +251,10 @@ class SolverFormats(unittest.TestCase):
                 grid = group.GetBlock(k)
                 corners = to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 3 if sums is areas else 2)
                 points = to_numpy(grid.GetPoints().GetData())[:, :2]
-                name = reader.GetObjectName(kind, k)
                 numbers = self.expected.regions if sums is areas else self.expected.parts
-                found = [number for known, number in numbers.items() if name.startswith(known)]
-                sums[found[0] if len(found) == 1 else name] = measure(points, corners).sum()
-        self.check_sums(areas, self.areas)
-        self.check_sums(lengths, self.lengths)
+                sums[numbers[reader.GetObjectName(kind, k)]] = float(measure(points, corners).sum(dtype=float))
+        self.check_sums(areas, self.areas, 1e-6)
+        self.check_sums(lengths, self.lengths, 1e-6)
 
 
 if __name__ == "__main__":
