@@ -655,8 +655,9 @@ class Formats(unittest.TestCase):
             for name, values in (("part_name", [f"side {k}" for k in range(1000)]),
                                  ("region_name", [f"unit {k}" for k in range(21)]),
                                  ("region_id", np.arange(1, 22, dtype=np.int32))):
+                kind = tags[name].dtype
                 del tags[name]
-                tags.create_dataset(name, data=values)
+                tags.create_dataset(name, data=np.array(values, dtype="S10" if kind.kind == "S" else kind))
             if "regions" in file["trime_mpi"]:
                 del file["trime_mpi/regions"]
         done = run("info", path)
