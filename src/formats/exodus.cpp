@@ -7,6 +7,7 @@
 
 #include "formats/edge_sides.hpp"
 #include "formats/rows_by_number.hpp"
+#include "trime/core/error.hpp"
 
 #include <fmt/format.h>
 

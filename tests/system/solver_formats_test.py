@@ -12,11 +12,11 @@ import unittest
 import meshio
 import numpy as np
 import vtk
-from scipy.io import netcdf_file
 from vtk.util.numpy_support import vtk_to_numpy as to_numpy
 
 from format_readers import Expected
 from region_meshes import areas_of, by_number, lengths_of
+from solver_readers import Exo, Inp
 from trime_run import Workspace, run
 
 BOX = """4 2 0 1
@@ -83,28 +83,6 @@ S
 """
 
 
-class Inp:
-    """An input file of Abaqus, read without other programs."""
-
-    def __init__(self, path):
-        self.points, self.elements, self.blocks, self.surfaces, self.nsets, self.comments = [], {}, {}, {}, {}, {}
-        rows = []
-        for line in path.read_text().splitlines():
-            if match := re.fullmatch(r"\*\* (region|label) (\d+): (.*): (?:ELSET|SURFACE and NSET) (\w+)", line):
-                self.comments[match[1], int(match[2])] = (match[3], match[4])
-            elif line.startswith("*"):
-                word, *options = (part.strip() for part in line.split(","))
-                options = dict(option.split("=") for option in options)
-                rows = {"*NODE": lambda: self.points, "*HEADING": lambda: [],
-                        "*ELEMENT": lambda: self.blocks.setdefault(options["ELSET"], []),
-                        "*SURFACE": lambda: self.surfaces.setdefault(options["NAME"], []),
-                        "*NSET": lambda: self.nsets.setdefault(options["NSET"], [])}[word]()
-                self.elements[word] = options
-            else:
-                rows.append([entry.strip() for entry in line.split(",") if entry.strip()])
-        self.longest = max(len(entry) for row in self.points for entry in row)
-
-
 class SolverFormats(unittest.TestCase):
     """A directory with one mesh in both formats."""
 
@@ -133,11 +111,6 @@ class SolverFormats(unittest.TestCase):
         for number, value in wanted.items():
             self.assertAlmostEqual(found[number], value, delta=delta, msg=number)
 
-    def left_of(self, edges, triangles):
-        """Checks that each edge is the side of a triangle in this direction: it lies on the left."""
-        sides = {(t[k], t[(k + 1) % 3]) for t in triangles.tolist() for k in range(3)}
-        self.assertLessEqual(set(map(tuple, edges.tolist())), sides)
-
     def points_by_label(self):
         edges, labels = self.expected.edges, self.expected.labels
         return {int(label): np.unique(edges[labels == label]) for label in np.unique(labels)}
@@ -147,9 +120,8 @@ class SolverFormats(unittest.TestCase):
         expected, inp = self.expected, Inp(self.work / "mesh.inp")
         self.assertLessEqual(inp.longest, 20)
         self.assertEqual(inp.elements["*ELEMENT"]["TYPE"], "CPS3")
-        table = np.array(inp.points, dtype=float)
-        np.testing.assert_array_equal(table[:, 0], np.arange(1, len(expected.points) + 1))
-        self.assertLessEqual(np.abs(table[:, 1:] - expected.points).max(), 1e-16)
+        self.assertEqual([int(row[0]) for row in inp.points], list(range(1, len(expected.points) + 1)))
+        self.assertLessEqual(np.abs(inp.places() - expected.points).max(), 1e-16)
         names = {number: names for (what, number), names in inp.comments.items() if what == "region"}
         self.assertEqual({name for name, _ in names.values()}, set(expected.regions_with_triangles()))
         self.assertEqual({names[2][1], names[3][1]}, {"rock", "Rock_2"})
@@ -158,26 +130,14 @@ class SolverFormats(unittest.TestCase):
         for number, block in blocks.items():
             np.testing.assert_array_equal(block[:, 0] - 1, np.flatnonzero(expected.region == number))
             np.testing.assert_array_equal(block[:, 1:] - 1, expected.triangles[expected.region == number])
-        self.check_sums({number: areas_of(table[:, 1:], block[:, 1:] - 1).sum() for number, block in blocks.items()},
-                        self.areas)
-        self.check_surfaces(inp, table[:, 1:])
-
-    def check_surfaces(self, inp, points):
-        expected, found = self.expected, {}
         for (what, label), (name, made) in inp.comments.items():
             if what == "label":
                 self.assertEqual(expected.parts[name], label)
-                rows = inp.surfaces[made]
-                corners = expected.triangles[[int(element) - 1 for element, _ in rows]]
-                side = np.array([int(word[1:]) - 1 for _, word in rows])
-                each = np.arange(len(rows))
-                edges = np.column_stack([corners[each, side], corners[each, (side + 1) % 3]])
-                found[label] = lengths_of(points, edges).sum()
-                self.assertEqual(sorted(map(tuple, edges.tolist())),
-                                 sorted(map(tuple, expected.edges[expected.labels == label].tolist())))
+                np.testing.assert_array_equal(inp.edges(made), expected.edges[expected.labels == label])
                 np.testing.assert_array_equal([int(row[0]) - 1 for row in inp.nsets[made]],
                                               self.points_by_label()[label])
-        self.check_sums(found, self.lengths)
+        for found, wanted in zip(inp.sums(), (self.areas, self.lengths)):
+            self.check_sums(found, wanted)
 
     def test_abaqus_by_meshio(self):
         expected, mesh = self.expected, meshio.read(self.work / "mesh.inp")
@@ -206,32 +166,20 @@ class SolverFormats(unittest.TestCase):
         np.testing.assert_allclose(stress, np.broadcast_to([2, 0, 0, 0, 0, 0], stress.shape), atol=1e-5)
 
     def test_exodus_by_scipy(self):
-        expected = self.expected
-        with netcdf_file(self.work / "mesh.exo", mmap=False) as file:
-            arrays = {name: array[...] for name, array in file.variables.items()}
-            self.assertEqual((file.version_byte, file.floating_point_word_size), (2, 8))
-        names = {word: [b"".join(row).rstrip(b"\0").decode() for row in arrays[f"{word}_names"]]
-                 for word in ("eb", "ss", "ns")}
-        np.testing.assert_array_equal(np.column_stack([arrays["coordx"], arrays["coordy"]]), expected.points)
-        self.assertEqual(dict(zip(names["eb"], arrays["eb_prop1"])), expected.regions_with_triangles())
-        blocks = [arrays[f"connect{k + 1}"] - 1 for k in range(len(names["eb"]))]
-        elements, order = np.vstack(blocks), arrays["elem_num_map"] - 1
-        np.testing.assert_array_equal(elements, expected.triangles[order])
+        expected, exo = self.expected, Exo(self.work / "mesh.exo")
+        self.assertEqual((exo.version, exo.word_size), (2, 8))
+        np.testing.assert_array_equal(exo.points, expected.points)
+        self.assertEqual(dict(zip(exo.names["eb"], exo.regions)), expected.regions_with_triangles())
+        order = exo.arrays["elem_num_map"] - 1
+        np.testing.assert_array_equal(exo.triangles, expected.triangles[order])
         np.testing.assert_array_equal(order, np.argsort(expected.region, kind="stable"))
-        self.check_sums({int(number): areas_of(expected.points, block).sum()
-                         for number, block in zip(arrays["eb_prop1"], blocks)}, self.areas)
-        self.assertEqual(dict(zip(names["ss"], arrays["ss_prop1"])), expected.parts_with_edges())
-        self.assertEqual(names["ss"], names["ns"])
-        found = {}
-        for k, label in enumerate(arrays["ss_prop1"].tolist(), 1):
-            corners, side = elements[arrays[f"elem_ss{k}"] - 1], arrays[f"side_ss{k}"] - 1
-            each = np.arange(len(side))
-            edges = np.column_stack([corners[each, side], corners[each, (side + 1) % 3]])
-            self.left_of(edges, expected.triangles)
-            found[label] = lengths_of(expected.points, edges).sum()
+        self.assertEqual(dict(zip(exo.names["ss"], exo.labels)), expected.parts_with_edges())
+        self.assertEqual(exo.names["ss"], exo.names["ns"])
+        for label, edges in exo.edges.items():
             np.testing.assert_array_equal(edges, expected.edges[expected.labels == label])
-            np.testing.assert_array_equal(arrays[f"node_ns{k}"] - 1, self.points_by_label()[label])
-        self.check_sums(found, self.lengths)
+            np.testing.assert_array_equal(exo.nodes[label], self.points_by_label()[label])
+        for found, wanted in zip(exo.sums(), (self.areas, self.lengths)):
+            self.check_sums(found, wanted)
 
     def test_exodus_by_vtk(self):
         """VTK uses the library of Exodus II itself. It makes coordinates of 32 bits."""
