@@ -14,12 +14,13 @@ import numpy as np
 
 from region_meshes import (Mesh, by_number, circle, lengths_of, read_by_meshio, read_freefem, read_triangle, rectangle,
                            region, rounded, shoelace, triangle)
+from solver_readers import Exo, Inp
 from trime_run import PROGRAM, Workspace, run
 
 CHECK = os.environ.get("TRIME_CHECK", str(pathlib.Path(PROGRAM).parent / "src" / "check" / "trime_check"))
 LAYOUTS = [(2, 1), (3, 2), (7, 1)]  # ranks, threads; the first mesh is made on 1 rank and 1 thread
 EXACT, WITH_SLIVERS = 1e-11, 1e-10
-ALL_FORMATS = "vtkhdf xdmf gmsh medit freefem triangle vtu"
+ALL_FORMATS = "vtkhdf xdmf gmsh medit freefem triangle vtu abaqus exodus"
 
 
 class RegionsTest(unittest.TestCase):
@@ -91,7 +92,8 @@ class RegionsTest(unittest.TestCase):
         found = {"gmsh": read_by_meshio(stem.with_suffix(".msh"), "gmsh:physical", "gmsh:physical"),
                  "medit": read_by_meshio(stem.with_suffix(".mesh"), "medit:ref", "medit:ref"),
                  "vtu": read_by_meshio(stem.with_suffix(".vtu"), "label", "region"),
-                 "freefem": read_freefem(stem.with_suffix(".freefem")), "triangle": read_triangle(stem)}
+                 "freefem": read_freefem(stem.with_suffix(".freefem")), "triangle": read_triangle(stem),
+                 "abaqus": Inp(stem.with_suffix(".inp")).sums(), "exodus": Exo(stem.with_suffix(".exo")).sums()}
         for name, (areas, lengths) in found.items():
             for expected, sums in zip(wanted, (areas, lengths)):
                 self.assertEqual(set(sums), set(expected), name)
