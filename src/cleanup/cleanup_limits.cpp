@@ -155,7 +155,7 @@ CleanupLimits::CleanupLimits(GlobalId sites, GlobalId most_points, GlobalId inne
   least_sites_ = sites - leeway;
   for_last_stage_ = 1 + static_cast<GlobalId>(Rules::reserved * static_cast<double>(most_points_));
   if (inner_edges > 0) // places along curves need sites in all stages
-    for_last_stage_ = std::min(for_last_stage_, (most_points_ - sites) / 2);
+    for_last_stage_ = std::min(for_last_stage_, (most_points_ - sites) / 4);
 }
 
 /// For more sites. Some are kept for places where nothing but smaller triangles helps.
