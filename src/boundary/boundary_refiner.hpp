@@ -124,6 +124,8 @@ private:
   ChordRecord chord_from(LocalIndex k, polygon::BoundarySite& result) const;
   [[noreturn]] void fail(const Cut& cut) const;
 
+  /// Returns the number of different places of sites: a node is one place for all curves that meet there.
+  std::size_t places() const { return sites_.size() - doubles_; }
   const Site& next(const Site& site) const { return sites_[site.next]; }
   /// Returns t of the end of the chord that starts at `site`; it is larger than t of the start, even beyond the end of
   /// the loop.
@@ -164,6 +166,7 @@ private:
   std::optional<SegmentWatch> watch_; // index of all chords, made after a few rounds
   std::size_t most_sites_ = 0;        // bound above which dividing certainly produces too many sites
   const std::size_t affordable_;      // limit given by the caller
+  std::size_t doubles_ = 0;           // sites at nodes at which another curve has a site already
   bool overfull_ = false;
   LocalIndex halvings_ = 0;
   int rounds_ = 0;

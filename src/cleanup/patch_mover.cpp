@@ -416,12 +416,21 @@ void PatchMover::slide_inside(Patch& patch, LocalIndex v) {
   }
 }
 
+/// Is a new length of a chord of a bent curve near h, or nearer than the old one?
+bool PatchMover::may_be_as_long(double before, double after, double size) {
+  return (after <= before || after <= Rules::longest_bent_chord * size) &&
+         (after >= before || after >= Rules::shortest_bent_chord * size);
+}
+
 /// Would the chords on both sides of a vertex on a curve inside have empty discs, and would it stay out of the discs of
 /// the others? Looks at its neighbours only; PatchChords::hold is certain.
 bool PatchMover::may_slide_inside(const Patch& patch, LocalIndex v, Vec2 to) const {
+  const bool is_bent =
+      start_.inner().track[at(index_on_curve(patch.boundary[at(v)].site))] != polygon::InnerChords::straight;
   for (const LocalIndex end : on_curve_) {
     const Vec2 p = patch.mesh.position(end);
-    if (!chords_.may_be_as_long(p, patch.mesh.position(v), to, patch.size[at(v)]))
+    if (is_bent &&
+        !may_be_as_long(geometry::length(patch.mesh.position(v) - p), geometry::length(to - p), patch.size[at(v)]))
       return false;
     for (const LocalIndex u : ring_)
       if (u != end && geometry::diametral_side(p, to, patch.mesh.position(u)) <= 0)

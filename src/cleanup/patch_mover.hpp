@@ -41,13 +41,6 @@ public:
     return stands_for_curve(own, patch.boundary[at(own.next)], patch.chord(v), patch.size[at(v)]);
   }
 
-  /// Returns whether the chord of a curve inside from p to `to` is not too long, or no longer than that from p to
-  /// `from`.
-  bool may_be_as_long(geometry::Vec2 p, geometry::Vec2 from, geometry::Vec2 to, double size) const {
-    const double length = geometry::length(to - p);
-    return length <= longest_bent_ * size || length <= geometry::length(from - p);
-  }
-
   /// @brief Returns whether each boundary edge that has changed is an edge of the triangulation, may replace the curve
   /// between its ends, and has no other vertex in its closed diametral disc. Also checks that no vertex has moved into
   /// the diametral disc of an unchanged boundary edge, and that no inner vertex lies outside the shape.
@@ -115,6 +108,7 @@ private:
   bool load_chords(const Patch& patch, LocalIndex v);
   geometry::Vec2 tangent_at(const Patch& patch, LocalIndex v) const;
   std::optional<geometry::Vec2> stepped(const Patch& patch, LocalIndex v, double step) const;
+  static bool may_be_as_long(double before, double after, double size);
   bool may_slide_inside(const Patch& patch, LocalIndex v, geometry::Vec2 to) const;
   bool load_ring(const Patch& patch, LocalIndex v);
   bool load_fan(const Patch& patch, LocalIndex v);

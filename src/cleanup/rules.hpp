@@ -107,6 +107,11 @@ struct CleanupRules {
   /// [h] Largest distance of a site on a simplified interface from its place before the clean-up. Such a site moves
   /// parallel to the line between its neighbours, so it leaves the curve. Not measured.
   static constexpr double longest_bent_slide = 0.3;
+  /// [h] Largest length of a chord of a bent curve inside after one of its ends has moved. The areas on both sides
+  /// depend on the lengths of the chords. Not measured.
+  static constexpr double longest_bent_chord = 1.07;
+  /// [h] Smallest length of such a chord. Not measured.
+  static constexpr double shortest_bent_chord = 0.93;
   /// [h] Longest step along the boundary.
   static constexpr double longest_slide = 0.2;
   /// [sweeps] Largest number of sweeps over the sites of bad triangles and their neighbours.
