@@ -105,8 +105,8 @@ private:
     header_.attribute({"floating_point_word_size", std::int32_t{8}});
     header_.attribute({"file_size", std::int32_t{1}}); // arrays of coordinates are separate
     header_.attribute({"maximum_name_length", static_cast<std::int32_t>(longest)});
-    constexpr std::int32_t long_maps = 0x2000, long_ids = 0x8000; // of points and elements
-    header_.attribute({"int64_status", has_long_ids_ ? long_maps | long_ids : std::int32_t{0}});
+    constexpr std::int32_t long_maps = 0x0400, long_bulk = 0x1000; // of points and elements, in the file
+    header_.attribute({"int64_status", has_long_ids_ ? long_maps | long_bulk : std::int32_t{0}});
     header_.attribute({"title", std::string("trime_mpi mesh")});
     header_.dimension("len_line", line_length);
     name_ = header_.dimension("len_name", name_length_);
