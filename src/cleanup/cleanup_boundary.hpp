@@ -47,8 +47,9 @@ public:
 
   /// Stores edits of this rank's patches in a round (0, 1, ...), which finish() sends.
   void note(std::span<const SiteEdit> edits, int round);
-  /// @brief Sends all edits to all ranks. Collective. O(edits on the boundary of all ranks); if there are any, also
-  /// O(sites on the boundary). @return the sites on the boundary after the edits; nothing if there were no edits
+  /// @brief Sends all edits to all ranks. Collective. O(edits on the boundary and on curves of all ranks); if there are
+  /// any, also O(sites on the boundary). @return the sites on the boundary after the edits; nothing if there were no
+  /// edits
   std::optional<polygon::BoundarySites> finish();
   /// Returns whether finish() has found edits that may have changed the indices of sites.
   bool has_new_indices() const { return !new_index_.empty(); }

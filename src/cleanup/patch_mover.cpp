@@ -381,7 +381,8 @@ std::optional<Vec2> PatchMover::stepped(const Patch& patch, LocalIndex v, double
 }
 
 /// The unit vector along the curve at a vertex: the tangent of the circle, or the direction from one neighbour to the
-/// other. A step in that direction leaves the areas on both sides as they are.
+/// other. A step from one neighbour towards the other leaves the areas on both sides as they are; steps along a circle
+/// change them, see polygon::InnerChords::move_sites.
 Vec2 PatchMover::tangent_at(const Patch& patch, LocalIndex v) const {
   const std::int32_t track = start_.inner().track[at(index_on_curve(patch.boundary[at(v)].site))];
   const Vec2 along = track >= 0

@@ -220,8 +220,9 @@ struct CleanupRules {
   /// with near_reach_if_obtuse.
   static constexpr double alpha_for_obtuse = 1.28;
   /// [alpha] By how much the largest alpha near a curve inside may rise in the first stage if the sum falls: where two
-  /// places are side by side, two operations are needed. Measured: in a mesh of 1e6 points with 500 discs inside 204
-  /// triangles had an alpha above 1.11 with this value, and 251 with 0.
+  /// places are side by side, two operations are needed. Measured: in a mesh of 1e6 points with 500 discs inside,
+  /// with FitRules::reserved_per_inner_edge = 0.06, 204 triangles had an alpha above 1.11 with this value, and 251 with
+  /// 0.
   static constexpr double rise_at_curves = 0.03;
   /// [operations] As runners, in the last of these stages. Measured with finalists_at_last, first_of_two and
   /// reserved_for_obtuse: of 43 obtuse triangles of coasts 23 were left.

@@ -34,9 +34,9 @@ struct InnerMove {
   geometry::Vec2 position;
 };
 
-/// @brief The chords of all curves inside a shape, and the sites on the curves. Only the clean-up moves
-/// the sites. An end of a chord is one of `sites`, or a corner on the boundary. Invariant: the open diametral circle of
-/// a chord contains no boundary site and no other end of a chord.
+/// @brief The chords of all curves inside a shape, and the sites on the curves. Only the clean-up moves the sites.
+/// An end of a chord is one of `sites`, or a corner on the boundary. Invariant: the open diametral circle of a chord
+/// contains no boundary site and no other end of a chord.
 struct InnerChords {
   /// Values of `track`; other values are indices into `circles`.
   static constexpr std::int32_t held = -1, straight = -2, bent = -3;
@@ -44,11 +44,11 @@ struct InnerChords {
   std::vector<InnerChord> chords;    ///< arc by arc, in the direction of each arc
   std::vector<geometry::Vec2> sites; ///< sites inside the shape, each once, in lexicographic order
   std::vector<std::uint8_t> corner;  ///< by site: whether it is a node or a corner, which must be a vertex of the mesh
-  std::vector<std::int32_t> track; ///< by site: how the clean-up may move it: not at all (held), along its two chords,
-                                   ///< which lie on one straight piece (straight), parallel to the line between its
-                                   ///< neighbours on a simplified interface (bent), or along one of `circles`
-  std::vector<SlideCircle> circles;
-  std::int64_t joined_nodes = 0;              ///< see geometry::InnerCurves
+  std::vector<std::int32_t> track;  ///< by site: how the clean-up may move it: not at all (held), along its two chords,
+                                    ///< which lie on one straight piece (straight), parallel to the line between its
+                                    ///< neighbours on a simplified interface (bent), or along one of `circles`
+  std::vector<SlideCircle> circles; ///< circles to which `track` refers, arc by arc
+  std::int64_t joined_nodes = 0;    ///< see geometry::InnerCurves
   std::vector<geometry::RegionLoss> losses{}; ///< what regions lose to each other by interfaces that are not the given
                                               ///< ones, place by place
   std::vector<LocalIndex> by_end; ///< each chord k as 2 k (first end) and 2 k + 1 (second end), by place of that end

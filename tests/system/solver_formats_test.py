@@ -31,7 +31,8 @@ BOX = """4 2 0 1
 4 4 1 4
 0
 """
-# Two names that differ in case only, a curve of which a part lies on an interface, and a crack.
+# The shape has two regions whose names differ in upper and lower case only. A part of its curve lies on an interface.
+# Its other curve is a crack.
 CONFIG = """[shape]
 geometry = box
 rest = matrix

@@ -74,7 +74,7 @@ TEST(InnerChords, FollowTheirSitesAlongACircle) {
   EXPECT_EQ(inner.losses[0].loser, 1);
 }
 
-/// What a region loses may become what it wins.
+/// The disc loses a small area to the rest; a move gives the disc more than that, so that the rest is the loser then.
 TEST(InnerChords, ExchangeLoserAndWinner) {
   InnerChords inner = ring({0, 1, 2, 3, 4, 5});
   const double before = area_of(inner);
