@@ -152,12 +152,13 @@ std::set<int> read_inside(const Settings& settings, const fs::path& directory, R
     options.curves.push_back(curve_of(settings, name, directory, options, problems));
   std::set<int> used = read_regions(settings, directory, options, problems);
   const bool is_periodic = settings.boolean("domain", "periodic_x") || settings.boolean("domain", "periodic_y");
-  for (const auto& [kind, names] : {std::pair("curve", &settings.curves()), std::pair("region", &settings.regions())})
-    if (is_periodic && !names->empty())
-      problems.add(settings.section_line(fmt::format("{}.{}", kind, names->front())),
-                   fmt::format("a periodic container cannot have {0}s inside yet: remove [{0}.NAME], or periodic_x and "
-                               "periodic_y",
-                               kind));
+  for (const CurveOptions& curve : options.curves)
+    if (is_periodic && curve.kind.split)
+      problems.add(
+          settings.line("curve." + curve.name, "split"),
+          fmt::format("'split = true' in [curve.{}]: curves of a periodic container cannot be split yet: remove "
+                      "'split', or periodic_x and periodic_y",
+                      curve.name));
   return used;
 }
 

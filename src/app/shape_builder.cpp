@@ -309,7 +309,8 @@ ShapeInput read_shape(const RunOptions& given, ShapeUse use, const comm::Communi
   }
   inside.parts.division.rest = options.rest;
   inside.parts.division.cover_all = options.regions_cover_all;
-  set_least_faces(options, frame.container(), inside.parts.division);
+  if (!frame.periods().any())
+    set_least_faces(options, frame.container(), inside.parts.division);
   if (!map.crs.empty())
     made.found.set_on_earth([map](geometry::Vec2 place) { return on_earth(map, place); });
   places = std::move(made.found);

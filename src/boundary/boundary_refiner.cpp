@@ -179,13 +179,17 @@ void BoundaryRefiner::join_nodes() {
   if (metrics_.size() == boundary_loops_)
     return;
   const auto is_end = [](const Site& site) { return site.next < 0 || site.previous < 0; };
+  const auto key = [this](const Site& site) {
+    const Vec2 canonical = boundary_.periods.wrap(site.position);
+    return std::pair(canonical.x, canonical.y);
+  };
   std::map<std::pair<double, double>, LocalIndex> nodes;
   for (const Site& site : sites_)
     if (is_end(site))
-      nodes[{site.position.x, site.position.y}] = -1;
+      nodes[key(site)] = -1;
   for (LocalIndex k = 0; k < static_cast<LocalIndex>(sites_.size()); ++k) {
     Site& site = sites_[k];
-    if (const auto node = nodes.find({site.position.x, site.position.y}); node != nodes.end()) {
+    if (const auto node = nodes.find(key(site)); node != nodes.end()) {
       doubles_ += node->second < 0 ? 0 : 1;
       node->second = node->second < 0 ? k : node->second;
       site.vertex = node->second;

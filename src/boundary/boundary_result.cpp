@@ -96,7 +96,9 @@ std::int32_t BoundaryRefiner::track_of(const Site& site, const geometry::InnerAr
 
 /// The chords of the curves inside, and their sites that do not lie on the boundary.
 polygon::InnerChords BoundaryRefiner::inner_chords() const {
+  const geometry::Periods& periods = boundary_.periods;
   polygon::InnerChords inner;
+  inner.periods = periods;
   struct Record {
     Vec2 position;
     std::uint8_t corner;
@@ -110,10 +112,11 @@ polygon::InnerChords BoundaryRefiner::inner_chords() const {
     LocalIndex k = loop_first_[loop];
     do {
       const Site& site = sites_[k];
+      const Vec2 canonical = periods.wrap(site.position);
       if (site.vertex == k) // of several curves' ends the first one
-        sites.push_back({site.position, site.kind != SiteKind::plain, track_of(site, arc, loss, inner)});
+        sites.push_back({canonical, site.kind != SiteKind::plain, track_of(site, arc, loss, inner)});
       if (site.next >= 0) {
-        inner.chords.push_back({{site.position, next(site).position},
+        inner.chords.push_back({{canonical, end_of(site) + (canonical - site.position)},
                                 metrics_[loop].loop().pieces[at(metrics_[loop].place(site.t).piece)].part,
                                 arc.left,
                                 arc.right});

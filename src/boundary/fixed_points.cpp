@@ -142,22 +142,32 @@ void FixedPoints::hold(const geometry::Domain& domain) {
     return;
   const geometry::Box box = given_boundary_.bounding_box();
   const double spacing = BoundaryRules::held_spacing * std::max(box.width(), box.height());
+  const geometry::Periods& periods = given_boundary_.periods;
+  const auto canonical = [&](Vec2 p) { return periods.wrap(p); };
+  const std::vector<Vec2> images = images_of(periods);
+  const auto distance_of_images = [&](const geometry::Piece& piece, Vec2 p) {
+    const Vec2 near = periods.nearest_image(p, 0.5 * (piece.start + piece.end));
+    double least = std::numeric_limits<double>::infinity();
+    for (const Vec2 shift : images)
+      least = std::fmin(least, piece.distance(near + shift));
+    return least;
+  };
   std::vector<Vec2> nodes;
   for (const geometry::InnerArc& arc : curves.arcs)
     for (const geometry::Piece& piece : arc.pieces) {
       const double length = piece.length(), parts = std::fmax(1, std::ceil(length / spacing));
       if (&piece != &arc.pieces.front() || arc.closed)
-        held_.push_back(piece.start);
+        held_.push_back(canonical(piece.start));
       for (int k = 1; k < static_cast<int>(parts); ++k)
-        held_.push_back(lattice_.snap(piece.point(k / parts * length)));
+        held_.push_back(canonical(lattice_.snap(piece.point(k / parts * length))));
       if (&piece == &arc.pieces.front())
-        nodes.push_back(piece.start);
+        nodes.push_back(canonical(piece.start));
       if (&piece == &arc.pieces.back())
-        nodes.push_back(piece.end);
+        nodes.push_back(canonical(piece.end));
       for (const Vec2 p : inside_)
-        if (p == piece.start || p == piece.end)
+        if (p == canonical(piece.start) || p == canonical(piece.end))
           on_curves_.push_back(p);
-        else if (piece.distance(p) <= tolerance_)
+        else if (distance_of_images(piece, p) <= tolerance_)
           throw GeometryError(fmt::format("{}: the fixed point {} lies on the {}, but is not a vertex of it; "
                                           "make it a vertex of the curve or of a part instead",
                                           label(p), Place(p, 12), domain.line_name(piece.part, arc.left, arc.right)));

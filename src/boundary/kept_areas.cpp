@@ -24,8 +24,11 @@ constexpr int rounds_of_sites = 5;
 // [steps] The first step leaves about the square of the relative shift; two more reach the accuracy of numbers.
 constexpr int newton_steps = 4;
 
-double area_beside(const std::vector<Vec2>& path, Vec2 place, bool closed) {
-  double twice = closed ? cross(path.back() - place, path.front() - place) : 0;
+/// @param winding of a closed path, see geometry::Loop
+double area_beside(const std::vector<Vec2>& path, Vec2 place, bool closed, Vec2 winding) {
+  double twice = closed ? cross(path.back() - place, path.front() + winding - place) : 0;
+  if (closed && winding != Vec2{}) // along the lines from the place, and its image, to the ends
+    twice -= cross(winding, path.front() - place);
   for (std::size_t k = 1; k < path.size(); ++k)
     twice += cross(path[k - 1] - place, path[k] - place);
   return 0.5 * twice;
@@ -71,6 +74,8 @@ bool BoundaryRefiner::leaves_out_corners(const Chain& chain) const {
 /// The interfaces of straight pieces that are not as they were given; sites on circles must stay there.
 std::vector<BoundaryRefiner::Chain> BoundaryRefiner::simplified_chains() const {
   std::vector<Chain> chains;
+  if (boundary_.periods.any()) // all corners are kept
+    return chains;
   for (std::size_t loop = boundary_loops_; loop < loop_first_.size(); ++loop) {
     const geometry::InnerArc& arc = curves_->arc(loop - boundary_loops_);
     if (arc.left == arc.right ||
@@ -93,7 +98,7 @@ std::vector<geometry::RegionLoss> BoundaryRefiner::losses() const {
     std::vector<Vec2> path;
     for (const LocalIndex k : chain.sites)
       path.push_back(sites_[k].position);
-    const double lost = chain.area - area_beside(path, chain.place, chain.closed);
+    const double lost = chain.area - area_beside(path, chain.place, chain.closed, chain.arc.winding);
     const bool is_simpler = chain.arc.is_simplified || leaves_out_corners(chain);
     losses.push_back({lost > 0 ? chain.arc.left : chain.arc.right, lost > 0 ? chain.arc.right : chain.arc.left,
                       is_simpler ? geometry::LossReason::thinning : geometry::LossReason::chords, std::fabs(lost), 1,
@@ -127,7 +132,7 @@ void BoundaryRefiner::shift(const Chain& chain, const std::vector<char>& is_held
   double shift = 0; // in h
   path = given;
   for (int step = 0; step < newton_steps; ++step) {
-    shift += (chain.area - area_beside(path, chain.place, chain.closed)) / width;
+    shift += (chain.area - area_beside(path, chain.place, chain.closed, chain.arc.winding)) / width;
     shift = std::clamp(shift, -BoundaryRules::most_area_shift, BoundaryRules::most_area_shift);
     for (std::size_t k = 0; k < n; ++k)
       path[k] = given[k] + shift * outward[k];

@@ -24,6 +24,7 @@ Piece back(Piece piece) {
 Loop loop_of(const InnerArc& arc) {
   Loop loop;
   loop.pieces = arc.pieces;
+  loop.winding = arc.winding;
   if (arc.closed)
     return loop;
   loop.turning = arc.pieces.size();
@@ -43,22 +44,28 @@ LaidCurves::LaidCurves(const Boundary& boundary, const geometry::InnerCurves& in
   if (inner.empty())
     return;
   joined_.emplace(boundary);
+  const geometry::Periods& periods = boundary.periods;
+  const auto key = [&](Vec2 node) {
+    const Vec2 canonical = periods.wrap(node);
+    return std::pair(canonical.x, canonical.y);
+  };
   std::map<std::pair<double, double>, double> wedges; // by node
   for (const InnerArc& arc : inner.arcs) {
     joined_->loops.push_back(loop_of(arc));
     if (arc.closed)
       continue;
     const Vec2 start = arc.pieces.front().start, end = arc.pieces.back().end;
-    wedges[{start.x, start.y}] = arc.start_wedge;
-    wedges[{end.x, end.y}] = arc.end_wedge;
+    wedges[key(start)] = arc.start_wedge;
+    wedges[key(end)] = arc.end_wedge;
   }
   for (std::size_t k = 0; k < boundary_loops(); ++k)
     for (Piece& piece : joined_->loops[k].pieces)
-      if (const auto node = wedges.find({piece.start.x, piece.start.y}); node != wedges.end())
+      if (const auto node = wedges.find(key(piece.start)); node != wedges.end())
         piece.wedge = node->second;
   for (std::size_t k = boundary_loops(); k < joined_->loops.size() && !corners.empty(); ++k)
     for (Piece& piece : joined_->loops[k].pieces)
-      piece.corner |= std::binary_search(corners.begin(), corners.end(), piece.start, geometry::lexicographically_less);
+      piece.corner |= std::binary_search(corners.begin(), corners.end(), periods.wrap(piece.start),
+                                         geometry::lexicographically_less);
 }
 
 } // namespace trime::boundary

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "boundary/size_limits.hpp"
 
+#include "boundary/cornered_boundary.hpp"
 #include "boundary/rules.hpp"
 #include "boundary/site_tree.hpp"
 #include "comm/agree.hpp"
@@ -46,8 +47,9 @@ class LimitFinder {
 public:
   LimitFinder(const BoundarySites& boundary, const sizing::SizeField& size, const sizing::SizeField& asked,
               LocalIndex first, LocalIndex last)
-      : boundary_(boundary), size_(size), asked_(asked), first_(first), last_(last), site_sizes_(sizes_at_sites()),
-        tree_(items_near()), sharp_(boundary.sites.size()) {
+      : boundary_(boundary), size_(size), asked_(asked), first_(first), last_(last),
+        images_(boundary.inner.empty() ? std::vector<Vec2>{{0, 0}} : images_of(boundary.periods)),
+        site_sizes_(sizes_at_sites()), tree_(items_near()), sharp_(boundary.sites.size()) {
     thread_loop(std::ssize(sharp_), sites_in_a_row, [this](std::ptrdiff_t k, int) {
       sharp_[static_cast<std::size_t>(k)] = chords_meet_sharply(static_cast<LocalIndex>(k));
     });
@@ -104,8 +106,9 @@ private:
     }
     std::vector<SiteTree::Entry> items;
     for (std::size_t k = 0; k < boundary_.sites.size(); ++k)
-      if (const Vec2 p = boundary_.sites[k].position; box.contains(p))
-        items.push_back({p, static_cast<LocalIndex>(k)});
+      for (const Vec2 shift : images_)
+        if (const Vec2 p = boundary_.sites[k].position + shift; box.contains(p))
+          items.push_back({p, static_cast<LocalIndex>(k)});
     return items;
   }
 
@@ -190,6 +193,7 @@ private:
   const BoundarySites& boundary_;
   const sizing::SizeField &size_, &asked_;
   const LocalIndex first_, last_;
+  const std::vector<Vec2> images_; // shifts by periods, if curves lie inside
   const double least_limit_ = boundary_.inner.empty() ? least_limit : least_limit_with_curves;
   const std::vector<double> site_sizes_; // of each of these chords, where it starts
   const SiteTree tree_;

@@ -2,6 +2,7 @@
 #include "certificate/region_proof.hpp"
 
 #include "certificate/boundary_proof.hpp"
+#include "core/angle.hpp"
 #include "core/thread_loop.hpp"
 
 #include <algorithm>
@@ -125,6 +126,75 @@ RegionCounts count_regions(const StageView& view, const decomposition::Numbering
   return counts;
 }
 
+/// The outline of a region in a periodic container, as closed paths around its faces.
+class PeriodicPaths {
+public:
+  PeriodicPaths(const RegionFinder& regions, int region, const geometry::Periods& periods) : periods_(periods) {
+    regions.for_each_chord(region, [&](Vec2 a, Vec2 b) {
+      const Vec2 home = periods.wrap(a) - a;
+      chords_.push_back({a + home, b + home});
+    });
+    std::sort(chords_.begin(), chords_.end(), [](const geometry::Segment& s, const geometry::Segment& t) {
+      return s.a != t.a ? geometry::lexicographically_less(s.a, t.a) : geometry::lexicographically_less(s.b, t.b);
+    });
+  }
+
+  /// The area on the left of all paths. On a torus it is known up to multiples of the area of the torus.
+  ExactArea area(const geometry::Lattice& lattice) const {
+    ExactArea area;
+    std::vector<char> is_used(chords_.size(), 0);
+    for (std::size_t first = 0; first < chords_.size(); ++first) {
+      const Vec2 origin = chords_[first].a;
+      Vec2 from = origin;
+      for (std::size_t k = first; is_used[k] == 0; k = next(k)) {
+        is_used[k] = 1;
+        const Vec2 to = from + (chords_[k].b - chords_[k].a);
+        area.add_triangle(origin, from, to, lattice);
+        from = to;
+      }
+      for (int side = 0; side < 2 && from != origin; ++side) // what a path around the container lacks to a closed one
+        area.add_triangle(periods_.min, origin, from, lattice);
+    }
+    return area;
+  }
+
+private:
+  /// The chord that goes on around the same face: the first one clockwise from the way back.
+  std::size_t next(std::size_t chord) const {
+    const Vec2 back = chords_[chord].a - chords_[chord].b, place = periods_.wrap(chords_[chord].b);
+    auto out = std::lower_bound(chords_.begin(), chords_.end(), place, [](const geometry::Segment& s, Vec2 p) {
+      return geometry::lexicographically_less(s.a, p);
+    });
+    std::size_t best = chord;
+    double least = 4 * pi;
+    for (; out != chords_.end() && out->a == place; ++out) {
+      const Vec2 along = out->b - out->a;
+      const double angle = angle_of(geometry::cross(along, back), geometry::dot(along, back));
+      if (const double turn = angle > 0 ? angle : angle + 2 * pi; turn < least) {
+        least = turn;
+        best = static_cast<std::size_t>(out - chords_.begin());
+      }
+    }
+    return best;
+  }
+
+  const geometry::Periods& periods_;
+  std::vector<geometry::Segment> chords_; // by their starts, which lie in the container
+};
+
+/// The exact area inside the outline of a region that has triangles or not, in a periodic container.
+ExactArea periodic_area(const RegionFinder& regions, int region, bool has_triangles, const StageView& view) {
+  const geometry::Periods& periods = view.polygon.periods;
+  ExactArea area = PeriodicPaths(regions, region, periods).area(view.lattice);
+  if (!(periods.x > 0 && periods.y > 0))
+    return area;
+  const Int128 torus = Int128{2} * view.lattice.steps(periods.x) * view.lattice.steps(periods.y);
+  area.twice = (area.twice % torus + torus) % torus;
+  if (area.twice == 0 && has_triangles)
+    area.twice = torus;
+  return area;
+}
+
 /// The exact area inside the outline of a region: the sum of the triangles from one of its vertices to its chords.
 ExactArea outline_area(const RegionFinder& regions, int region, const geometry::Lattice& lattice) {
   ExactArea area;
@@ -155,7 +225,10 @@ RegionProof prove_regions(const StageView& view, const decomposition::Numbering&
   for (const polygon::InnerChord& chord : view.polygon.inner.chords)
     chords += chord.left != chord.right;
   for (std::size_t k = 0; k < regions.count(); ++k) {
-    filled += outline_area(regions, static_cast<int>(k), view.lattice).twice == counts.areas[k].twice;
+    const ExactArea inside = view.polygon.periods.any()
+                                 ? periodic_area(regions, static_cast<int>(k), counts.triangles[k] > 0, view)
+                                 : outline_area(regions, static_cast<int>(k), view.lattice);
+    filled += inside.twice == counts.areas[k].twice;
     listed += written[k] == counts.triangles[k];
     proof.areas.push_back(counts.areas[k].value(view.lattice));
   }

@@ -217,22 +217,43 @@ private:
     report_.none("interface_discs", wide, "edges between regions with an angle above 90 degrees opposite to them");
   }
 
+  /// Returns the edge that goes on around the same side of the region: the first one clockwise from the way back.
+  std::multimap<std::int64_t, std::int64_t>::iterator next_border(std::multimap<std::int64_t, std::int64_t>& borders,
+                                                                  std::int64_t from, std::int64_t id) const {
+    const auto [low, high] = borders.equal_range(id);
+    auto best = low;
+    if (low == high)
+      return borders.end();
+    const Point place = mesh_.at(id), back = mesh_.periods.near(mesh_.at(from), place) - place;
+    double least = HUGE_VAL;
+    for (auto out = low; out != high; ++out) {
+      const Point along = mesh_.periods.near(mesh_.at(out->second), place) - place;
+      const double angle = std::atan2(along.x * back.y - along.y * back.x, along.x * back.x + along.y * back.y);
+      if (const double turn = angle > 0 ? angle : angle + 7; turn < least) { // more than a full turn
+        least = turn;
+        best = out;
+      }
+    }
+    return best;
+  }
+
   /// @brief Returns twice the area inside the border of a region, or nothing if its edges do not form closed paths.
-  /// Where paths meet in a point, any edge goes on, because the sum stays the same.
+  /// Where paths meet in a point, each goes on around the same side of the region. So no two paths of a torus cross.
   std::optional<Integer> twice_area_inside(std::multimap<std::int64_t, std::int64_t> borders) const {
     Integer area = 0;
     while (!borders.empty()) {
       const std::int64_t start = borders.begin()->first;
       const Point origin = mesh_.at(start);
       Point at = origin;
-      std::int64_t id = start;
+      std::int64_t before = -1, id = start;
       do {
-        const auto next = borders.find(id);
+        const auto next = before < 0 ? borders.begin() : next_border(borders, before, id);
         if (next == borders.end())
           return std::nullopt;
         const Point from = mesh_.at(id), to = at + (mesh_.periods.near(mesh_.at(next->second), from) - from);
         area += plane_.twice_area(origin, at, to);
         at = to;
+        before = id;
         id = next->second;
         borders.erase(next);
       } while (id != start);

@@ -192,21 +192,22 @@ void PatchStart::link_boundary() {
 }
 
 /// Finds the chords of inner curves whose ends are both in the patch, by the positions of the ends before the clean-up.
-/// A site on a curve whose neighbour there is beyond the patch is held.
+/// A site on a curve whose neighbour there is beyond the patch is held. Positions are those of the images in the patch.
 void PatchStart::link_curves() {
   if (inner().empty())
     return;
   std::vector<std::pair<Vec2, LocalIndex>> vertices; // that may be ends
   for (LocalIndex v = PatchMesh::frame; v < patch_.mesh.vertices(); ++v)
     if (const LocalIndex site = index_on_curve(patch_.boundary[at(v)].site); site >= 0)
-      vertices.emplace_back(inner().sites[at(site)], v);
+      vertices.emplace_back(periods().nearest_image(inner().sites[at(site)], patch_.mesh.position(v)), v);
     else if (patch_.role[at(v)] != VertexRole::free)
       vertices.emplace_back(patch_.mesh.position(v), v);
   const auto before = [](const auto& a, const auto& b) { return geometry::lexicographically_less(a.first, b.first); };
   std::sort(vertices.begin(), vertices.end(), before);
   for (const auto& [p, v] : vertices)
-    for (const LocalIndex half : inner().at(p)) {
-      const std::pair<Vec2, LocalIndex> other{inner().other_end(half), -1};
+    for (const LocalIndex half : inner().at(periods().wrap(p))) {
+      const Vec2 shift = p - periods().wrap(p);
+      const std::pair<Vec2, LocalIndex> other{inner().other_end(half) + shift, -1};
       const auto found = std::lower_bound(vertices.begin(), vertices.end(), other, before);
       if (found == vertices.end() || found->first != other.first)
         patch_.role[at(v)] = std::min(patch_.role[at(v)], VertexRole::scored);

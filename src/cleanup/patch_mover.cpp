@@ -370,12 +370,13 @@ std::optional<Vec2> PatchMover::stepped(const Patch& patch, LocalIndex v, double
   const Vec2 beyond = from + step * tangent_;
   if (track >= 0) {
     const polygon::SlideCircle& circle = start_.inner().circles[at(track)];
-    const Vec2 arm = beyond - circle.center;
-    return start_.lattice().snap(circle.center + (circle.radius / geometry::length(arm)) * arm);
+    const Vec2 center = start_.inner().center_near(circle, from), arm = beyond - center;
+    return start_.lattice().snap(center + (circle.radius / geometry::length(arm)) * arm);
   }
   const Vec2 to = start_.lattice().snap(beyond);
   if (track == InnerChords::bent &&
-      geometry::length(to - start_.inner().sites[at(site)]) > Rules::longest_bent_slide * patch.size[at(v)])
+      geometry::length(to - start_.periods().nearest_image(start_.inner().sites[at(site)], to)) >
+          Rules::longest_bent_slide * patch.size[at(v)])
     return std::nullopt;
   return to;
 }
@@ -385,8 +386,9 @@ std::optional<Vec2> PatchMover::stepped(const Patch& patch, LocalIndex v, double
 /// change them, see polygon::InnerChords::move_sites.
 Vec2 PatchMover::tangent_at(const Patch& patch, LocalIndex v) const {
   const std::int32_t track = start_.inner().track[at(index_on_curve(patch.boundary[at(v)].site))];
+  const Vec2 p = patch.mesh.position(v);
   const Vec2 along = track >= 0
-                         ? geometry::left_normal(patch.mesh.position(v) - start_.inner().circles[at(track)].center)
+                         ? geometry::left_normal(p - start_.inner().center_near(start_.inner().circles[at(track)], p))
                          : patch.mesh.position(on_curve_[1]) - patch.mesh.position(on_curve_[0]);
   return (1 / geometry::length(along)) * along;
 }

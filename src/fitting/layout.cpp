@@ -178,10 +178,10 @@ const geometry::Boundary& generalised_curves(const LayoutContext& context, Fitte
 std::unique_ptr<BoundaryRefiner> make_refiner(const LayoutContext& context, std::size_t affordable,
                                               const sizing::ScaledSize& asked, FittedSize& fitted, Stage& stage) {
   const bool keeps_all = context.options.features.keep_all;
-  const FeatureRule rule{keeps_all ? 0 : context.options.features.tolerance,
-                         keeps_all ? 0 : BoundaryRules::least_perimeter, context.options.features.components,
-                         context.options.features.component_place,
-                         generalises(context) ? context.options.features.tolerance : 0};
+  const FeatureRule rule{
+      keeps_all ? 0 : context.options.features.tolerance, keeps_all ? 0 : BoundaryRules::least_perimeter,
+      context.options.features.components, context.options.features.component_place,
+      generalises(context) && !context.given_boundary.periods.any() ? context.options.features.tolerance : 0};
   const geometry::Boundary& boundary = generalised_curves(context, fitted, stage);
   const auto curves = std::make_shared<const boundary::LaidCurves>(
       boundary, inner_curves(context, stage.asked_size(), boundary, fitted.curves), context.fixed.on_curves());
@@ -293,7 +293,8 @@ namespace {
 /// Throws if a site of a curve lies outside: the boundary was simplified across it.
 void check_curves_inside(const LayoutContext& context, const Stage& laid) {
   for (const polygon::InnerChord& chord : laid.polygon.inner.chords) {
-    const geometry::Vec2 middle = context.lattice.snap(0.5 * (chord.ends.a + chord.ends.b));
+    const geometry::Vec2 middle =
+        context.given_boundary.periods.wrap(context.lattice.snap(0.5 * (chord.ends.a + chord.ends.b)));
     if (laid.guard->inside(middle))
       continue;
     throw GeometryError(

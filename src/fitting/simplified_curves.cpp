@@ -139,7 +139,7 @@ void simplify_curves(const LayoutContext& context, const sizing::SizeField& aske
 const geometry::InnerCurves& inner_curves(const LayoutContext& context, const sizing::SizeField& asked,
                                           const Boundary& boundary, CurvesAtSize& curves) {
   const geometry::InnerCurves& given = context.domain.curves();
-  if (given.empty() || !generalises(context))
+  if (given.empty() || !generalises(context) || boundary.periods.any())
     return given;
   if (!curves.inner || curves.inner_factor != curves.factor) {
     curves.inner = std::make_shared<geometry::InnerCurves>(generalise::thin_inner_curves(

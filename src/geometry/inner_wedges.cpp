@@ -15,9 +15,10 @@ constexpr double sharp_angle = pi / 3;
 /// The directions in which curves leave their nodes.
 class Directions {
 public:
-  void watch(Vec2 node) { arms_[{node.x, node.y}]; }
+  explicit Directions(const Periods& periods) : periods_(periods) {}
+  void watch(Vec2 node) { arms_[key(node)]; }
   void add(Vec2 node, Vec2 direction) {
-    if (const auto found = arms_.find({node.x, node.y}); found != arms_.end())
+    if (const auto found = arms_.find(key(node)); found != arms_.end())
       found->second.push_back(direction);
   }
   void add_both(const Piece& piece) {
@@ -26,7 +27,7 @@ public:
   }
   /// Returns the smallest angle between two curves at the node, or 0 if it is not below 60 degrees.
   double wedge(Vec2 node) const {
-    const std::vector<Vec2>& arms = arms_.at({node.x, node.y});
+    const std::vector<Vec2>& arms = arms_.at(key(node));
     double least = sharp_angle;
     for (std::size_t k = 0; k < arms.size(); ++k)
       for (std::size_t j = 0; j < k; ++j)
@@ -35,13 +36,19 @@ public:
   }
 
 private:
+  std::pair<double, double> key(Vec2 node) const {
+    const Vec2 canonical = periods_.wrap(node);
+    return {canonical.x, canonical.y};
+  }
+
+  const Periods& periods_;
   std::map<std::pair<double, double>, std::vector<Vec2>> arms_;
 };
 
 } // namespace
 
 void set_wedges(std::vector<InnerArc>& arcs, const Boundary& boundary) {
-  Directions directions;
+  Directions directions(boundary.periods);
   for (const InnerArc& arc : arcs)
     if (!arc.closed)
       for (const Vec2 node : {arc.pieces.front().start, arc.pieces.back().end})

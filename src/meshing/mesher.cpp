@@ -316,7 +316,7 @@ void Run::tell_of_regions(const certificate::RegionProof& proof, MeshResult& res
 /// The arrays that are written, with their quality and the certificate.
 MeshResult Run::extract() {
   const sites::StageView view = stage_.view(run_.lattice, boundary_.fixed().all());
-  const polygon::RegionFinder regions(stage_.polygon, run_.domain.regions());
+  const polygon::RegionFinder regions(stage_.polygon, run_.domain.regions(), run_.lattice);
   MeshResult result;
   decomposition::Numbering numbering;
   {

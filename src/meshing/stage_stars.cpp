@@ -129,7 +129,7 @@ void Snapshots::take(const sites::Stage& stage) {
       decomposition::canonical_numbering(run_.comm, shown.points(), shown.halo());
   const sites::StageView view{shown, stage.polygon, *stage.size, run_.lattice, boundary_.fixed().all()};
   const extraction::Extraction made = extraction::extract_mesh(
-      view, numbering, stage.asked_size(), polygon::RegionFinder(stage.polygon, run_.domain.regions()));
+      view, numbering, stage.asked_size(), polygon::RegionFinder(stage.polygon, run_.domain.regions(), run_.lattice));
   const std::vector<polygon::LoopSummary> loops = boundary_.loops(stage.polygon);
   observer_({triangulations_, run_.timers.total(), made.mesh, made.quality, loops});
 }

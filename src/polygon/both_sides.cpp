@@ -41,9 +41,10 @@ BoundarySites with_both_sides(const BoundarySites& boundary) {
   BoundarySites sites = boundary;
   const InnerChords& inner = boundary.inner;
   const auto first = static_cast<LocalIndex>(boundary.sites.size());
-  for (const InnerChord& chord : inner.chords)
-    for (const Vec2 from : {chord.ends.a, chord.ends.b})
-      sites.sites.push_back({from, -1, -1, 0, inner.is_corner(from)});
+  for (LocalIndex half = 0; half < 2 * std::ssize(inner.chords); ++half) {
+    const Vec2 from = inner.end(half);
+    sites.sites.push_back({from, -1, -1, 0, inner.is_corner(from), inner.other_end(half) - inner.end(half ^ 1)});
+  }
   std::vector<std::pair<Vec2, LocalIndex>> corners; // of the boundary
   for (LocalIndex k = 0; k < first; ++k)
     if (boundary.sites[static_cast<std::size_t>(k)].corner)
@@ -64,7 +65,7 @@ BoundarySites with_both_sides(const BoundarySites& boundary) {
       for (const Arm& arm : arms)
         sites.sites[static_cast<std::size_t>(arm.out)].corner = true; // between two curves that meet on the boundary
       add(boundary.chord(own).b, own, -1);
-      add(boundary.chord(last).a, -1, last);
+      add(boundary.chord(last).a - boundary.sites[static_cast<std::size_t>(last)].next_shift, -1, last);
     }
     if (arms.size() == 1)
       sites.sites[static_cast<std::size_t>(arms[0].out)].corner = false;

@@ -2,6 +2,7 @@
 #include "polygon/boundary_guard.hpp"
 
 #include "core/thread_loop.hpp"
+#include "geometry/periodic_outline.hpp"
 #include "geometry/predicates.hpp"
 #include "polygon/disc_cells.hpp"
 #include "polygon/rules.hpp"
@@ -41,14 +42,17 @@ constexpr double entries_per_chord = 64;
 // [entries] Of these lists, at most: 128 MiB.
 constexpr double most_entries = 0x1p25;
 
+/// The image whose middle lies in the container.
+Segment canonical(const Segment& chord, const geometry::Periods& periods) {
+  const Vec2 middle = 0.5 * (chord.a + chord.b), shift = periods.wrap(middle) - middle;
+  return {chord.a + shift, chord.b + shift};
+}
+
 std::vector<Segment> chords_of(const BoundarySites& sites) {
   std::vector<Segment> chords;
   chords.reserve(sites.sites.size());
-  for (std::size_t k = 0; k < sites.sites.size(); ++k) {
-    const Segment chord = sites.chord(static_cast<LocalIndex>(k));
-    const Vec2 middle = 0.5 * (chord.a + chord.b), shift = sites.periods.wrap(middle) - middle;
-    chords.push_back({chord.a + shift, chord.b + shift});
-  }
+  for (std::size_t k = 0; k < sites.sites.size(); ++k)
+    chords.push_back(canonical(sites.chord(static_cast<LocalIndex>(k)), sites.periods));
   return chords;
 }
 
@@ -105,21 +109,24 @@ void lower_by_row(std::uint8_t* row, const std::uint8_t* other, std::size_t widt
 
 BoundaryGuard::BoundaryGuard(const BoundarySites& sites, const geometry::Lattice& lattice)
     : periods_(sites.periods), chords_(chords_of(sites)) {
-  TRIME_ASSERT(!is_empty() || periods_.any());
-  if (is_empty())
-    return;
+  TRIME_ASSERT(has_rim() || periods_.any());
   std::vector<Segment> inner;
   for (const InnerChord& chord : sites.inner.chords)
-    inner.push_back(chord.ends);
+    inner.push_back(periods_.any() ? canonical(chord.ends, periods_) : chord.ends);
   if (!inner.empty())
     inner_ = geometry::SegmentGrid(std::move(inner));
+  if (is_empty())
+    return;
   const geometry::Box window = choose_cells();
   if (periods_.any()) {
-    add_images(window);
-    close_chords(window, lattice);
+    add_images(chords_, window);
+    if (has_rim())
+      close_chords(window, lattice);
   }
   first_inner_ = static_cast<LocalIndex>(images_.size());
   images_.insert(images_.end(), inner_.segments().begin(), inner_.segments().end());
+  if (periods_.any())
+    add_images(inner_, window);
   cells_.list_discs(chords_.segments(), images_);
   classify_cells(lattice);
 }
@@ -161,8 +168,8 @@ geometry::Box BoundaryGuard::choose_cells() {
 }
 
 /// The images whose discs meet the window, and with them all that meet it themselves.
-void BoundaryGuard::add_images(const geometry::Box& window) {
-  for (const Segment& chord : chords_.segments()) {
+void BoundaryGuard::add_images(const geometry::SegmentGrid& chords, const geometry::Box& window) {
+  for (const Segment& chord : chords.segments()) {
     const Vec2 middle = 0.5 * (chord.a + chord.b);
     const double reach = reach_of(chord);
     for_each_shift(periods_, reach + 4 * cells_.side(), [&](Vec2 shift) {
@@ -177,7 +184,7 @@ void BoundaryGuard::add_images(const geometry::Box& window) {
 void BoundaryGuard::close_chords(const geometry::Box& window, const geometry::Lattice& lattice) {
   std::vector<Segment> all(chords_.segments().begin(), chords_.segments().end());
   all.insert(all.end(), images_.begin(), images_.end());
-  closed_ = geometry::SegmentGrid(close_outside(std::move(all), window, std::fmax(periods_.x, periods_.y)));
+  closed_ = geometry::SegmentGrid(geometry::close_outside(std::move(all), window, std::fmax(periods_.x, periods_.y)));
   // No other chord leads through the disc of the first: what lies in it on the left is inside.
   const Segment& first = chords_.segments()[0];
   const Vec2 middle = 0.5 * (first.a + first.b);
@@ -248,7 +255,7 @@ int BoundaryGuard::state_at(Vec2 p) const {
 }
 
 bool BoundaryGuard::inside_polygon(Vec2 p) const {
-  return periods_.any() ? closed_.inside(p) != inverted_ : chords_.inside(p);
+  return periods_.any() ? !has_rim() || closed_.inside(p) != inverted_ : chords_.inside(p);
 }
 
 bool BoundaryGuard::inside(Vec2 p) const {
@@ -258,13 +265,16 @@ bool BoundaryGuard::inside(Vec2 p) const {
 }
 
 /// Middles of chords are canonical: of a point that is, one image to each side is enough.
-std::optional<BoundaryGuard::NearChord> BoundaryGuard::nearest(Vec2 p, double reach) const {
+std::optional<BoundaryGuard::NearChord> BoundaryGuard::nearest(const geometry::SegmentGrid& chords, Vec2 p,
+                                                               double reach) const {
   std::optional<NearChord> best;
+  if (chords.segments().empty())
+    return best;
   const auto look_from = [&](Vec2 shift) {
-    const auto found = chords_.nearest(p + shift, best ? std::sqrt(best->squared_distance) : reach);
+    const auto found = chords.nearest(p + shift, best ? std::sqrt(best->squared_distance) : reach);
     if (!found || (best && found->squared_distance >= best->squared_distance))
       return;
-    const Segment& chord = chords_.segments()[found->segment];
+    const Segment& chord = chords.segments()[found->segment];
     best = {{chord.a - shift, chord.b - shift}, found->squared_distance};
   };
   look_from({});
@@ -280,11 +290,9 @@ double BoundaryGuard::distance(Vec2 p, double reach) const {
   p = periods_.wrap(p);
   if (clear_way(p) >= reach)
     return reach;
-  const auto found = nearest(p, reach);
+  const auto found = nearest(chords_, p, reach);
   const double way = found ? std::sqrt(found->squared_distance) : reach;
-  if (inner_.segments().empty())
-    return way;
-  const auto inner = inner_.nearest(p, way);
+  const auto inner = nearest(inner_, p, way);
   return inner ? std::fmin(way, std::sqrt(inner->squared_distance)) : way;
 }
 
@@ -312,8 +320,8 @@ std::optional<Vec2> BoundaryGuard::correct(Vec2 image, double h, const geometry:
   if (p_inside) {
     s = disc(deepest);
   } else {
-    const auto near = nearest(p, 2 * h);
-    s = near ? near->chord : nearest(p, std::numeric_limits<double>::infinity())->chord;
+    const auto near = nearest(chords_, p, 2 * h);
+    s = near ? near->chord : nearest(chords_, p, std::numeric_limits<double>::infinity())->chord;
   }
   if (p_inside && has_both_sides(deepest) && geometry::cross(s.b - s.a, p - s.a) < 0)
     std::swap(s.a, s.b);

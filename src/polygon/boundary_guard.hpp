@@ -27,7 +27,7 @@ namespace trime::polygon {
 /// In a periodic container, queries accept any periodic image of a point, and all images of the chords count. The
 /// chords and images that meet the container are completed to closed polygons outside of it. Then the even-odd rule
 /// separates inside from outside; the inner side of one chord shows which is which. Without sites, every point is
-/// inside.
+/// inside, and only curves inside the shape have circles.
 ///
 /// The chords of curves inside the shape have diametral circles, too. A site in such a circle is pushed to the side on
 /// which it lies.
@@ -77,17 +77,18 @@ private:
   };
 
   geometry::Box choose_cells();
-  void add_images(const geometry::Box& window);
+  void add_images(const geometry::SegmentGrid& chords, const geometry::Box& window);
   void close_chords(const geometry::Box& window, const geometry::Lattice& lattice);
   // The following queries take canonical points.
   bool inside_polygon(geometry::Vec2 p) const;
-  std::optional<NearChord> nearest(geometry::Vec2 p, double reach) const;
+  std::optional<NearChord> nearest(const geometry::SegmentGrid& chords, geometry::Vec2 p, double reach) const;
   const geometry::Segment& disc(LocalIndex k) const {
     return k < chord_count() ? chords_.segments()[k] : images_[static_cast<std::size_t>(k - chord_count())];
   }
   bool has_both_sides(LocalIndex k) const { return k >= chord_count() + first_inner_; }
   LocalIndex chord_count() const { return static_cast<LocalIndex>(chords_.segments().size()); }
-  bool is_empty() const { return chords_.segments().empty(); }
+  bool has_rim() const { return !chords_.segments().empty(); }
+  bool is_empty() const { return !has_rim() && inner_.segments().empty(); }
   void classify_cells(const geometry::Lattice& lattice);
   std::vector<std::uint8_t> clearance_of(int low, int high) const;
   void classify_row(int j, const std::uint8_t* clearance, const geometry::Lattice& lattice);
@@ -100,9 +101,9 @@ private:
 
   geometry::Periods periods_;
   geometry::SegmentGrid chords_;          // each as the periodic image whose middle lies in the container
-  geometry::SegmentGrid inner_;           // chords of curves inside the shape
+  geometry::SegmentGrid inner_;           // chords of curves inside the shape, as such images
   std::vector<geometry::Segment> images_; // images of chords whose diametral circles reach into the container; then the
-                                          // chords of curves inside the shape
+                                          // chords of curves inside the shape, and their images
   LocalIndex first_inner_ = 0;            // index in images_ of the first chord of a curve
   geometry::SegmentGrid
       closed_; // chords and images, completed to closed polygons outside of the container; for periodic containers only

@@ -118,13 +118,4 @@ private:
       discs_; // starts_: for each cell with circles, the index in discs_ at which its list begins
 };
 
-/// @brief Returns the segments together with additional ones outside of `window`, so that every end belongs to an even
-/// number of segments. Then the even-odd rule separates inside from outside in the window, but does not say which is
-/// which.
-/// @param segments an end that belongs to an odd number of them must lie outside of `window`
-/// @param margin distance of the added segments from all others; a multiple of the coordinate lattice's step, as are
-/// all ends
-std::vector<geometry::Segment> close_outside(std::vector<geometry::Segment> segments, const geometry::Box& window,
-                                             double margin);
-
 } // namespace trime::polygon

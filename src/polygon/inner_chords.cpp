@@ -41,18 +41,36 @@ void InnerChords::move_sites(std::span<const InnerMove> moves) {
   for (std::size_t k = 0; k < moves.size(); ++k) {
     const auto site = static_cast<std::size_t>(moves[k].site);
     const auto [out, in] = halves[k];
-    const geometry::Vec2 by = moves[k].position - sites[site];
+    const geometry::Vec2 canonical = periods.wrap(moves[k].position);
+    const geometry::Vec2 by = periods.nearest_image(canonical, sites[site]) - sites[site];
     const std::int32_t circle = track[site];
     if (circle >= 0 && circles[static_cast<std::size_t>(circle)].loss >= 0) {
       const SlideCircle& its = circles[static_cast<std::size_t>(circle)];
       add_gain(losses[static_cast<std::size_t>(its.loss)], its.left,
                0.5 * geometry::cross(by, other_end(out) - other_end(in)));
     }
-    chords[static_cast<std::size_t>(out / 2)].ends.a = chords[static_cast<std::size_t>(in / 2)].ends.b = sites[site] =
-        moves[k].position;
+    geometry::Segment& leaving = chords[static_cast<std::size_t>(out / 2)].ends;
+    geometry::Segment& arriving = chords[static_cast<std::size_t>(in / 2)].ends;
+    const geometry::Vec2 wrapped = canonical - (sites[site] + by); // across a side of a periodic container
+    arriving.b = arriving.b + by;
+    leaving = {canonical, wrapped == geometry::Vec2{} ? leaving.b : leaving.b + wrapped};
+    sites[site] = canonical;
   }
   sort_sites();
   sort_ends();
+}
+
+geometry::Vec2 InnerChords::center_near(const SlideCircle& circle, geometry::Vec2 p) const {
+  if (!periods.any())
+    return circle.center;
+  const auto off = [&](geometry::Vec2 center) { return std::fabs(geometry::length(p - center) - circle.radius); };
+  const geometry::Vec2 first = periods.nearest_image(circle.center, p);
+  geometry::Vec2 best = first;
+  for (const double x : {-periods.x, 0.0, periods.x})
+    for (const double y : {-periods.y, 0.0, periods.y})
+      if (const geometry::Vec2 center = first + geometry::Vec2{x, y}; off(center) < off(best))
+        best = center;
+  return best;
 }
 
 /// Restores the lexicographic order.

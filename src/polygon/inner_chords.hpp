@@ -3,6 +3,7 @@
 #pragma once
 
 #include "trime/core/types.hpp"
+#include "trime/geometry/lattice.hpp"
 #include "trime/geometry/region_loss.hpp"
 #include "trime/geometry/vec2.hpp"
 
@@ -15,12 +16,12 @@ namespace trime::polygon {
 
 /// A straight edge between two neighbouring sites on a curve or an interface inside the shape, in the direction of it.
 struct InnerChord {
-  geometry::Segment ends;
+  geometry::Segment ends; ///< the first end lies in the container, the second one may be a periodic image of its site
   std::int32_t curve = 0; ///< number of the curve, an index into geometry::InnerCurves::names; -1: an interface only
   std::int32_t left = 0, right = 0; ///< regions on both sides, as indices into geometry::Regions::names
 };
 
-/// A circle on which sites of an interface or a curve may move.
+/// A circle on which sites of an interface or a curve may move. In a periodic container it stands for all its images.
 struct SlideCircle {
   geometry::Vec2 center;
   double radius = 0;
@@ -41,6 +42,7 @@ struct InnerChords {
   /// Values of `track`; other values are indices into `circles`.
   static constexpr std::int32_t held = -1, straight = -2, bent = -3;
 
+  geometry::Periods periods{};       ///< periods of the boundary
   std::vector<InnerChord> chords;    ///< arc by arc, in the direction of each arc
   std::vector<geometry::Vec2> sites; ///< sites inside the shape, each once, in lexicographic order
   std::vector<std::uint8_t> corner;  ///< by site: whether it is a node or a corner, which must be a vertex of the mesh
@@ -54,11 +56,16 @@ struct InnerChords {
   std::vector<LocalIndex> by_end; ///< each chord k as 2 k (first end) and 2 k + 1 (second end), by place of that end
 
   bool empty() const { return chords.empty(); }
+  /// Returns the place of an end, in the container.
   geometry::Vec2 end(LocalIndex half) const {
     const geometry::Segment& ends = chords[static_cast<std::size_t>(half / 2)].ends;
-    return half % 2 == 0 ? ends.a : ends.b;
+    return half % 2 == 0 ? ends.a : periods.wrap(ends.b);
   }
-  geometry::Vec2 other_end(LocalIndex half) const { return end(half ^ 1); }
+  /// Returns the other end of the chord, as it is seen from end(half): it may lie outside of a periodic container.
+  geometry::Vec2 other_end(LocalIndex half) const {
+    const geometry::Segment& ends = chords[static_cast<std::size_t>(half / 2)].ends;
+    return half % 2 == 0 ? ends.b : !periods.any() ? ends.a : ends.a + (periods.wrap(ends.b) - ends.b);
+  }
   /// Sets by_end.
   void sort_ends();
   /// Returns the entries of by_end at p. Cost: O(log chords).
@@ -84,6 +91,9 @@ struct InnerChords {
   /// @brief Moves sites with the ends of their chords, and brings the losses of arcs on circles up to date. The indices
   /// of sites change. Cost: O(chords log chords). @pre each site occurs once, and its track is not `held`
   void move_sites(std::span<const InnerMove> moves);
+
+  /// Returns the centre of the periodic image of a circle that passes nearest to p.
+  geometry::Vec2 center_near(const SlideCircle& circle, geometry::Vec2 p) const;
 
 private:
   void sort_sites();

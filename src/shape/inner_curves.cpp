@@ -17,8 +17,8 @@ using geometry::Vec2;
 /// Follows pieces from vertex to vertex.
 class PieceWalk {
 public:
-  PieceWalk(std::vector<CurvePiece> pieces, const std::vector<char>& on_boundary)
-      : pieces_(std::move(pieces)), on_boundary_(on_boundary), used_(pieces_.size(), 0) {
+  PieceWalk(std::vector<CurvePiece> pieces, const std::vector<char>& on_boundary, const geometry::Periods& periods)
+      : pieces_(std::move(pieces)), on_boundary_(on_boundary), periods_(periods), used_(pieces_.size(), 0) {
     for (std::size_t k = 0; k < pieces_.size(); ++k) {
       ends_.emplace_back(pieces_[k].from, k);
       ends_.emplace_back(pieces_[k].to, k);
@@ -63,6 +63,12 @@ private:
 
   static std::pair<int, int> pair_of(const CurvePiece& piece) { return std::minmax({piece.left, piece.right}); }
 
+  /// Appends a piece where the arc ends; the first one begins in the container.
+  void append(const Piece& piece, InnerArc& arc) const {
+    const Vec2 at = arc.pieces.empty() ? periods_.wrap(piece.start) : arc.pieces.back().end;
+    arc.pieces.push_back(at == piece.start ? piece : moved(piece, at - piece.start));
+  }
+
   /// From a vertex along a piece to the next node, or once around.
   InnerArc follow(std::size_t piece, LocalIndex from) {
     InnerArc arc;
@@ -71,7 +77,7 @@ private:
     for (LocalIndex at = from;;) {
       const CurvePiece& next = pieces_[piece];
       used_[piece] = 1;
-      arc.pieces.push_back(next.from == at ? next.piece : reversed(next.piece));
+      append(next.from == at ? next.piece : reversed(next.piece), arc);
       at = next.from == at ? next.to : next.from;
       if (is_node(at))
         return arc;
@@ -85,15 +91,20 @@ private:
   InnerArc ring(std::size_t piece) {
     InnerArc arc = follow(piece, pieces_[piece].from);
     arc.closed = true;
-    const auto first = std::min_element(arc.pieces.begin(), arc.pieces.end(), [](const Piece& a, const Piece& b) {
-      return geometry::lexicographically_less(a.start, b.start);
+    arc.winding = arc.pieces.back().end - arc.pieces.front().start;
+    const auto first = std::min_element(arc.pieces.begin(), arc.pieces.end(), [this](const Piece& a, const Piece& b) {
+      return periods_.less(a.start, b.start);
     });
     std::rotate(arc.pieces.begin(), first, arc.pieces.end());
+    if (periods_.any())
+      for (Piece& rotated : std::exchange(arc.pieces, {}))
+        append(rotated, arc);
     return arc;
   }
 
   std::vector<CurvePiece> pieces_;
   const std::vector<char>& on_boundary_;
+  const geometry::Periods& periods_;
   std::vector<char> used_;
   std::vector<End> ends_;
 };
@@ -110,9 +121,16 @@ Piece reversed(Piece piece) {
   return piece;
 }
 
+Piece moved(Piece piece, Vec2 by) {
+  piece.start = piece.start + by;
+  piece.end = piece.end + by;
+  piece.center = piece.center + by;
+  return piece;
+}
+
 std::vector<InnerArc> join_pieces(std::vector<CurvePiece> pieces, const std::vector<char>& on_boundary,
                                   const geometry::Boundary& boundary) {
-  std::vector<InnerArc> arcs = PieceWalk(std::move(pieces), on_boundary).arcs();
+  std::vector<InnerArc> arcs = PieceWalk(std::move(pieces), on_boundary, boundary.periods).arcs();
   geometry::set_wedges(arcs, boundary);
   return arcs;
 }

@@ -12,6 +12,8 @@ using geometry::Vec2;
 
 void InnerPieces::look_at(LocalIndex k, const Side& left, const Side& right, Vec2 middle) {
   const Arrangement::Piece& piece = arrangement_.pieces()[k];
+  if (!is_here(piece, left, right))
+    return;
   const auto [curve, along_curve] = curve_of(piece);
   const bool is_inside = left.is_region && right.is_region, is_interface = is_inside && left.region != right.region;
   if (curve >= 0 && !is_inside) {
@@ -32,6 +34,15 @@ void InnerPieces::look_at(LocalIndex k, const Side& left, const Side& right, Vec
   kept.right = along ? right.region : left.region;
   kept.piece = piece_along(piece, along);
   kept.piece.part = curve;
+}
+
+/// Does the piece lie in the container, and if it is one of two images on opposite sides, on the lower one?
+bool InnerPieces::is_here(const Arrangement::Piece& piece, const Side& left, const Side& right) const {
+  if (left.in_container == right.in_container)
+    return left.in_container;
+  const Vec2 along = arrangement_.vertices().point(piece.to) - arrangement_.vertices().point(piece.from);
+  const Vec2 to_left = geometry::left_normal(along);
+  return (to_left.x + to_left.y > 0) == left.in_container;
 }
 
 /// The first curve that runs along the piece.
@@ -67,13 +78,39 @@ void InnerPieces::report_outside(int curve, Vec2 place) const {
                   part.name(), label.empty() ? "" : fmt::format(" ({})", label), Place(place, 12), text_));
 }
 
-geometry::InnerCurves InnerPieces::curves(const std::vector<char>& on_boundary, const geometry::Boundary& boundary) {
+namespace {
+
+/// The piece between exact images of its nodes.
+CurvePiece between_nodes(CurvePiece piece, const VertexTable& vertices, const Quotient& nodes) {
+  const auto place_of = [&](LocalIndex vertex) { return nodes.point(nodes.node(vertex)) + nodes.shift(vertex); };
+  const Vec2 from = place_of(piece.from), to = place_of(piece.to);
+  if (from != vertices.point(piece.from) || to != vertices.point(piece.to)) {
+    const Piece given = piece.piece;
+    if (given.circular) {
+      const Circle circle{given.center, given.radius};
+      piece.piece = given.sweep > 0 ? make_arc(circle, from, to) : reversed(make_arc(circle, to, from));
+      piece.piece.part = given.part;
+    }
+    piece.piece.start = from;
+    piece.piece.end = to;
+  }
+  piece.from = nodes.node(piece.from);
+  piece.to = nodes.node(piece.to);
+  return piece;
+}
+
+} // namespace
+
+geometry::InnerCurves InnerPieces::curves(const std::vector<char>& on_boundary, const Quotient& nodes,
+                                          const geometry::Boundary& boundary) {
   geometry::InnerCurves curves;
   for (const Part& curve : inner_.curves)
     curves.names.push_back(curve.name());
   curves.kinds = inner_.kinds;
   curves.on_boundary = std::move(on_boundary_);
   curves.outside = std::move(outside_);
+  for (CurvePiece& piece : pieces_)
+    piece = between_nodes(piece, arrangement_.vertices(), nodes);
   curves.arcs = join_pieces(std::move(pieces_), on_boundary, boundary);
   return curves;
 }

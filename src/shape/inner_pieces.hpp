@@ -5,6 +5,7 @@
 
 #include "shape/arrangement.hpp"
 #include "shape/inner_curves.hpp"
+#include "shape/vertex_table.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/shape/region_shape.hpp"
 
@@ -22,7 +23,8 @@ struct Side {
 };
 
 /// @brief Keeps pieces with the shape on both sides if they belong to a curve or have different regions on their sides.
-/// Measures curves elsewhere.
+/// Measures curves elsewhere. Of a piece on the border of a periodic container and its image on the other side it keeps
+/// the one on the lower side.
 class InnerPieces {
 public:
   /// @param first_curve index of the first curve among the indices of placed parts @param text expression of the shape
@@ -38,8 +40,9 @@ public:
   /// Returns the pieces: those of curves in the direction of the curve, others with the lower region on the left.
   const std::vector<CurvePiece>& pieces() const { return pieces_; }
   /// Returns the arcs together with the names and lengths of the curves. Frees the pieces.
-  /// @param on_boundary by vertex: whether it lies on the boundary
-  geometry::InnerCurves curves(const std::vector<char>& on_boundary, const geometry::Boundary& boundary);
+  /// @param on_boundary by node: whether it lies on the boundary @param nodes of all pieces
+  geometry::InnerCurves curves(const std::vector<char>& on_boundary, const Quotient& nodes,
+                               const geometry::Boundary& boundary);
 
 private:
   struct OnCurve {
@@ -47,6 +50,7 @@ private:
     bool along;
   };
   OnCurve curve_of(const Arrangement::Piece& piece) const;
+  bool is_here(const Arrangement::Piece& piece, const Side& left, const Side& right) const;
   geometry::Piece piece_along(const Arrangement::Piece& piece, bool along) const;
   [[noreturn]] void report_outside(int curve, geometry::Vec2 place) const;
 

@@ -81,11 +81,11 @@ public:
           fmt::format("the geometry '{}' is empty: no point lies in it; check the parts and the order of the operands",
                       region_.text()));
     check_area(boundary_, region_.text(), frame_);
-    const double least = least_area(boundary_, frame_);
+    const double least = least_region_area();
     if (sides_.any())
       sides_.check(least, region_.text());
     std::vector<std::int32_t> markers = name_markers(boundary_, given_, frame_);
-    geometry::InnerCurves curves = inside_.curves(on_boundary_, boundary_);
+    geometry::InnerCurves curves = inside_.curves(on_boundary_, *nodes_, boundary_);
     geometry::Domain domain(frame_, std::move(boundary_), std::move(markers));
     geometry::Regions regions = sides_.regions(curves.arcs, domain.boundary(), least, region_.text());
     regions.absorbed = absorbed_;
@@ -127,15 +127,16 @@ private:
       for (const Vec2 shift : image_shifts(part, frame_))
         placed.push_back({&part, index, shift});
     }
-    if (frame_.periods().any() && (!inner_.curves.empty() || sides_.any()))
-      throw GeometryError(fmt::format(
-          "{} '{}': a periodic container cannot have curves or regions inside yet; expected "
-          "a container without periods",
-          sides_.any() ? "region" : "curve", sides_.any() ? inner_.division.regions[0].name : inner_.curves[0].name()));
+    for (std::size_t k = 0; k < std::min(inner_.curves.size(), inner_.kinds.size()); ++k)
+      if (frame_.periods().any() && inner_.kinds[k].split)
+        throw GeometryError(fmt::format("curve '{}': curves of a periodic container cannot be split yet; expected "
+                                        "split = false, or a container without periods",
+                                        inner_.curves[k].name()));
+    for (std::size_t k = 0; k < inner_.curves.size(); ++k)
+      for (const Vec2 shift : image_shifts(inner_.curves[k], frame_))
+        placed.push_back({&inner_.curves[k], first_curve() + static_cast<int>(k), shift});
     if (frame_.periods().any())
       placed.push_back({&cut_, cut_index, {}});
-    for (std::size_t k = 0; k < inner_.curves.size(); ++k)
-      placed.push_back({&inner_.curves[k], first_curve() + static_cast<int>(k), {}});
     return placed;
   }
   /// The index of the first curve; parts and the domain have lower ones.
@@ -168,6 +169,7 @@ private:
   void keep(LocalIndex k, const Side& left, const Side& right);
   void keep_divided(std::vector<std::array<Side, 2>>& sides);
   void note_curves();
+  double least_region_area() const;
   void check_container() const;
   void link();
   [[noreturn]] void report_node(LocalIndex node) const;
@@ -188,7 +190,7 @@ private:
   std::vector<Kept> kept_;
   std::optional<Quotient> nodes_;
   std::vector<LocalIndex> next_;                // the kept piece that leaves each node, or -1
-  std::vector<char> on_boundary_, meets_curve_; // by vertex; empty if there are no curves and regions
+  std::vector<char> on_boundary_, meets_curve_; // by node; empty if there are no curves and regions
   std::vector<int> parts_of_side_;              // work space
   geometry::AbsorbedFaces absorbed_;
   Boundary boundary_;
@@ -301,26 +303,36 @@ void BoundaryMaker::keep_divided(std::vector<std::array<Side, 2>>& sides) {
     keep(static_cast<LocalIndex>(k), sides[k][0], sides[k][1]);
 }
 
-/// Sets the region of the left side of a piece, and counts the area under the piece for it.
+/// Sets the region of the left side of a piece, and counts the area under the piece for it, if the side lies in the
+/// container.
 void BoundaryMaker::set_region(const std::vector<int>& places, const Piece& piece, Side& side) {
   parts_of_side_.clear();
   for (const int place : places)
-    if (!is_curve(place))
-      parts_of_side_.push_back(placed_[static_cast<std::size_t>(place)].index);
-  side.region = sides_.at(parts_of_side_, side.is_region, twice_area_under({piece}, frame_.inner().min), piece.start);
+    if (const int index = placed_[static_cast<std::size_t>(place)].index; !is_curve(place) && index != cut_index)
+      parts_of_side_.push_back(index);
+  const double twice_area = side.in_container ? twice_area_under({piece}, frame_.inner().min) : 0;
+  side.region = sides_.at(parts_of_side_, side.is_region, twice_area, piece.start);
 }
 
-/// Notes which vertices lie on the boundary, and where curves meet it.
+/// Notes which nodes lie on the boundary, and where curves meet it.
 void BoundaryMaker::note_curves() {
   if (!has_inside())
     return;
-  on_boundary_.assign(static_cast<std::size_t>(arrangement_.vertices().size()), 0);
+  on_boundary_.assign(static_cast<std::size_t>(nodes_->size()), 0);
   meets_curve_ = on_boundary_;
   for (const Kept& kept : kept_)
-    on_boundary_[static_cast<std::size_t>(kept.from)] = 1;
+    on_boundary_[static_cast<std::size_t>(nodes_->node(kept.from))] = 1;
   for (const CurvePiece& piece : inside_.pieces())
     for (const LocalIndex end : {piece.from, piece.to})
-      meets_curve_[static_cast<std::size_t>(end)] = 1;
+      meets_curve_[static_cast<std::size_t>(nodes_->node(end))] = 1;
+}
+
+/// An area that is not larger than rounding errors along the boundary and the border of a periodic container.
+double BoundaryMaker::least_region_area() const {
+  const double least = least_area(boundary_, frame_);
+  const Box& box = frame_.inner();
+  return frame_.periods().any() ? least + VertexTable::merge_steps * frame_.step() * (box.width() + box.height())
+                                : least;
 }
 
 Side BoundaryMaker::side_of(RegionState& state, const std::vector<int>& places) const {
@@ -371,7 +383,11 @@ void BoundaryMaker::link() {
   used.reserve(2 * kept_.size());
   for (const Kept& kept : kept_)
     used.insert(used.end(), {kept.from, kept.to});
+  const std::size_t on_boundary = used.size();
+  for (const CurvePiece& piece : inside_.pieces())
+    used.insert(used.end(), {piece.from, piece.to});
   nodes_.emplace(arrangement_.vertices(), used, frame_);
+  used.resize(on_boundary);
   const LocalIndex count = nodes_->size();
   std::vector<LocalIndex> arrivals(count, 0), departures(count, 0);
   next_.assign(count, -1);
@@ -458,7 +474,7 @@ Piece BoundaryMaker::finished(const Kept& kept, Vec2 offset) const {
   }
   piece.part = index_of(source);
   piece.region = kept.region;
-  piece.corner = !meets_curve_.empty() && meets_curve_[static_cast<std::size_t>(kept.from)] != 0;
+  piece.corner = !meets_curve_.empty() && meets_curve_[static_cast<std::size_t>(nodes_->node(kept.from))] != 0;
   return piece;
 }
 
@@ -498,7 +514,7 @@ void BoundaryMaker::finish_periodic_area() {
     const Vec2 p = frame_.lattice().snap(0.5 * (frame_.inner().min + frame_.inner().max));
     std::vector<int> around;
     for (std::size_t place = 0; place < placed_.size(); ++place)
-      if (placed_[place].part->inside(p - placed_[place].shift))
+      if (!is_curve(static_cast<int>(place)) && placed_[place].part->inside(p - placed_[place].shift))
         around.push_back(static_cast<int>(place));
     RegionState state(region_, given_.size() + 1);
     boundary_.covers_torus = holds(state, around);

@@ -116,9 +116,11 @@ geometry::Regions RegionSides::regions(const std::vector<geometry::InnerArc>& ar
   for (const geometry::InnerArc& arc : arcs)
     if (arc.left != arc.right)
       pairs.insert({std::min(arc.left, arc.right), std::max(arc.left, arc.right)});
-  for (const geometry::NarrowWedge& wedge : geometry::narrow_wedges(arcs, boundary)) // which may be cut
-    if (wedge.left_region != wedge.right_region)
-      pairs.insert({std::min(wedge.left_region, wedge.right_region), std::max(wedge.left_region, wedge.right_region)});
+  if (!boundary.periods.any()) // wedges of periodic containers are not cut
+    for (const geometry::NarrowWedge& wedge : geometry::narrow_wedges(arcs, boundary))
+      if (wedge.left_region != wedge.right_region)
+        pairs.insert(
+            {std::min(wedge.left_region, wedge.right_region), std::max(wedge.left_region, wedge.right_region)});
   regions.pairs.assign(pairs.begin(), pairs.end());
   for (const auto& [pair, area] : overlaps_)
     if (0.5 * area.twice > std::max(least, overlap_share * std::min(given_[pair[0]], given_[pair[1]])))

@@ -24,14 +24,15 @@ struct Outline {
   double deviation = 0; ///< largest distance of an arc from its segments
 };
 
-void add_piece(const Piece& piece, const geometry::Lattice& lattice, Outline& outline) {
+/// @param along the region lies on the left of the piece
+void add_piece(const Piece& piece, bool along, const geometry::Lattice& lattice, Outline& outline) {
   const double length = piece.length();
   const int parts = piece.circular ? static_cast<int>(std::ceil(std::fabs(piece.sweep) / longest_turn)) : 1;
   Vec2 at = piece.start;
   for (int k = 1; k <= parts; ++k) {
     const Vec2 next = k == parts ? piece.end : lattice.snap(piece.point(length * k / parts));
     if (next != at)
-      outline.segments.push_back({at, next});
+      outline.segments.push_back(along ? Segment{at, next} : Segment{next, at});
     at = next;
   }
   if (piece.circular)
@@ -44,18 +45,18 @@ Outline outline_of(int region, const geometry::Domain& domain) {
   for (const geometry::Loop& loop : domain.boundary().loops)
     for (const Piece& piece : loop.pieces)
       if (piece.region == region)
-        add_piece(piece, lattice, outline);
+        add_piece(piece, true, lattice, outline);
   for (const geometry::InnerArc& arc : domain.curves().arcs)
     if (arc.left != arc.right && (arc.left == region || arc.right == region))
       for (const Piece& piece : arc.pieces)
-        add_piece(piece, lattice, outline);
+        add_piece(piece, arc.left == region, lattice, outline);
   return outline;
 }
 
 } // namespace
 
 RegionSize::RegionSize(const SizeField& field, const geometry::Domain& domain, std::vector<RegionBound> bounds)
-    : field_(field), lattice_(domain.frame().lattice()) {
+    : field_(field), lattice_(domain.frame().lattice()), periods_(domain.frame().periods()) {
   const geometry::Box& container = domain.frame().container();
   const double width = border_width * std::fmax(container.width(), container.height());
   for (const RegionBound& bound : bounds) {
@@ -63,6 +64,10 @@ RegionSize::RegionSize(const SizeField& field, const geometry::Domain& domain, s
     if (outline.segments.empty())
       continue;
     const double border = width + outline.deviation;
+    if (periods_.any()) {
+      periodic_.push_back({geometry::PeriodicOutline(outline.segments, periods_, lattice_), bound.size, border});
+      continue;
+    }
     geometry::Box box;
     for (const Segment& segment : outline.segments)
       for (const Vec2 corner : {segment.a - Vec2{border, border}, segment.a + Vec2{border, border}})
@@ -79,12 +84,19 @@ double RegionSize::size(Vec2 p) const {
     if (one.size < size && p.x >= one.box.min.x && p.x <= one.box.max.x && p.y >= one.box.min.y &&
         p.y <= one.box.max.y && (one.outline.inside(lattice_.snap(p)) || one.outline.nearest(p, one.border)))
       size = one.size;
+  const Vec2 canonical = periods_.wrap(p);
+  for (const PeriodicBound& one : periodic_)
+    if (one.size < size &&
+        (one.outline.inside(periods_.wrap(lattice_.snap(canonical))) || one.outline.is_within(canonical, one.border)))
+      size = one.size;
   return size;
 }
 
 std::size_t RegionSize::memory_bytes() const {
   std::size_t bytes = field_.memory_bytes();
   for (const Bounded& one : bounded_)
+    bytes += one.outline.memory_bytes();
+  for (const PeriodicBound& one : periodic_)
     bytes += one.outline.memory_bytes();
   return bytes;
 }

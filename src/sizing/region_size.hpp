@@ -2,6 +2,7 @@
 // A size field that is bounded in some regions of a shape, such as a material that needs small triangles.
 #pragma once
 
+#include "geometry/periodic_outline.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/geometry/lattice.hpp"
 #include "trime/geometry/segment_grid.hpp"
@@ -37,9 +38,15 @@ private:
     double size;
     double border; ///< places outside, but within this distance, belong to the region
   };
+  struct PeriodicBound {
+    geometry::PeriodicOutline outline;
+    double size, border;
+  };
   const SizeField& field_;
   geometry::Lattice lattice_;
+  geometry::Periods periods_;
   std::vector<Bounded> bounded_;
+  std::vector<PeriodicBound> periodic_; // in a periodic container instead
 };
 
 } // namespace trime::sizing

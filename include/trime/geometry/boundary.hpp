@@ -88,12 +88,14 @@ struct Boundary {
 
 /// @brief A part of the curves and interfaces inside a shape, from node to node. A node is an end of a curve, a place
 /// where curves meet or cross each other or the boundary, or a place where another curve or another pair of regions
-/// begins. Arcs meet only in nodes.
+/// begins. Arcs meet only in nodes. In a periodic container an arc begins in the container, and its pieces follow each
+/// other as those of a Loop do.
 struct InnerArc {
-  std::vector<Piece> pieces;             ///< each begins where the piece before it ends; Piece::part is an index into
-                                         ///< InnerCurves::names; -1 for an interface on which no curve lies
-  int left = 0, right = 0;               ///< regions on both sides, as indices into Regions::names
-  bool closed = false;                   ///< a ring without a node: it ends where it begins
+  std::vector<Piece> pieces; ///< each begins where the piece before it ends; Piece::part is an index into
+                             ///< InnerCurves::names; -1 for an interface on which no curve lies
+  int left = 0, right = 0;   ///< regions on both sides, as indices into Regions::names
+  bool closed = false;       ///< a ring without a node: it ends where it begins, plus `winding`
+  Vec2 winding{}; ///< multiple of the periods; zero unless the arc is closed and goes around the periodic container
   double start_wedge = 0, end_wedge = 0; ///< Piece::wedge at its ends
   bool is_simplified = false;            ///< an interface that is not the one that was given
   double lost_area = 0; ///< area that the simplification has taken from the region on the left, and given to the other;

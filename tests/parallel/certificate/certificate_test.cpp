@@ -50,8 +50,9 @@ protected:
     const delaunay::StarBuilder builder(unit_lattice(), 1);
     stage.state->compute_stars(builder, *stage.size, sites::Wanted::all_sites);
     numbering = decomposition::canonical_numbering(comm, stage.state->points(), stage.state->halo());
-    mesh = extraction::extract_mesh(stage.view(unit_lattice()), numbering, stage.asked_size(),
-                                    polygon::RegionFinder(stage.polygon, square.domain().regions()))
+    mesh = extraction::extract_mesh(
+               stage.view(unit_lattice()), numbering, stage.asked_size(),
+               polygon::RegionFinder(stage.polygon, square.domain().regions(), square.domain().frame().lattice()))
                .mesh;
   }
 
