@@ -102,7 +102,7 @@ std::vector<geometry::RegionLoss> BoundaryRefiner::losses() const {
     const bool is_simpler = chain.arc.is_simplified || leaves_out_corners(chain);
     losses.push_back({lost > 0 ? chain.arc.left : chain.arc.right, lost > 0 ? chain.arc.right : chain.arc.left,
                       is_simpler ? geometry::LossReason::thinning : geometry::LossReason::chords, std::fabs(lost), 1,
-                      std::fabs(lost), path[path.size() / 2]});
+                      std::fabs(lost), boundary_.periods.wrap(path[path.size() / 2])});
   }
   return losses;
 }

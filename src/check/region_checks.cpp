@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <set>
 
@@ -229,7 +230,7 @@ private:
     for (auto out = low; out != high; ++out) {
       const Point along = mesh_.periods.near(mesh_.at(out->second), place) - place;
       const double angle = std::atan2(along.x * back.y - along.y * back.x, along.x * back.x + along.y * back.y);
-      if (const double turn = angle > 0 ? angle : angle + 7; turn < least) { // more than a full turn
+      if (const double turn = angle > 0 ? angle : angle + 2 * std::numbers::pi; turn < least) {
         least = turn;
         best = out;
       }
@@ -242,21 +243,24 @@ private:
   std::optional<Integer> twice_area_inside(std::multimap<std::int64_t, std::int64_t> borders) const {
     Integer area = 0;
     while (!borders.empty()) {
-      const std::int64_t start = borders.begin()->first;
-      const Point origin = mesh_.at(start);
+      const auto first = borders.begin();
+      const Point origin = mesh_.at(first->first);
       Point at = origin;
-      std::int64_t before = -1, id = start;
-      do {
-        const auto next = before < 0 ? borders.begin() : next_border(borders, before, id);
-        if (next == borders.end())
-          return std::nullopt;
-        const Point from = mesh_.at(id), to = at + (mesh_.periods.near(mesh_.at(next->second), from) - from);
+      for (auto edge = first;;) {
+        const auto [id, to_id] = *edge;
+        const Point from = mesh_.at(id), to = at + (mesh_.periods.near(mesh_.at(to_id), from) - from);
         area += plane_.twice_area(origin, at, to);
         at = to;
-        before = id;
-        id = next->second;
-        borders.erase(next);
-      } while (id != start);
+        const auto next = next_border(borders, id, to_id);
+        if (next == borders.end() || (next == edge && edge != first))
+          return std::nullopt;
+        if (edge != first)
+          borders.erase(edge);
+        if (next == first)
+          break;
+        edge = next;
+      }
+      borders.erase(first);
       area += 2 * plane_.cross(origin - mesh_.points[0], at - origin); // of a path around a periodic container
     }
     return area;

@@ -4,6 +4,7 @@
 #include "inside.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <unordered_map>
@@ -68,13 +69,16 @@ public:
     return within(around) != without;
   }
 
-  /// Returns whether the curve of another part that the shape or a region uses passes within `limit`.
+  /// Returns whether the curve of another part that the shape or a region uses, or a periodic image of this curve,
+  /// passes within `limit`.
   bool meets_another(std::size_t part, Point p, double limit) const {
-    for (const Point image : shape_.images(p))
+    for (const Point image : shape_.images(p)) {
+      const bool is_itself = std::fabs(image.x - p.x) <= limit && std::fabs(image.y - p.y) <= limit;
       for (const std::size_t other : shape_.finder->near(image, limit))
-        if (other != part && (uses(other) || shape_.region->uses(other)) &&
+        if ((other != part || !is_itself) && (uses(other) || shape_.region->uses(other)) &&
             shape_.parts[other].curve->distance(image) <= limit)
           return true;
+    }
     return false;
   }
 

@@ -44,13 +44,17 @@ void Fewest::consider(const Stage& stage, double trial_points, bool all_counted)
   points = trial_points;
   counted = all_counted && !stage.polygon.overfull;
   double least = INFINITY;
-  for (LocalIndex k = 0; k < std::ssize(stage.polygon.sites); ++k) {
-    const geometry::Segment chord = stage.polygon.chord(k);
+  const auto look = [&](const geometry::Segment& chord, bool is_inside) {
     if (const double length = geometry::length(chord.b - chord.a); length < least) {
       least = length;
       shortest = chord;
+      inside = is_inside;
     }
-  }
+  };
+  for (LocalIndex k = 0; k < std::ssize(stage.polygon.sites); ++k)
+    look(stage.polygon.chord(k), false);
+  for (const polygon::InnerChord& chord : stage.polygon.inner.chords)
+    look(chord.ends, true);
 }
 
 TooFewPoints too_few_points(const LayoutContext& context, double fewest, bool counted) {
@@ -75,10 +79,12 @@ TooFewPoints too_few_points(const LayoutContext& context, const Fewest& fewest) 
     return too_few_points(context, fewest.points, fewest.counted);
   const geometry::Vec2 place = 0.5 * (fewest.shortest.a + fewest.shortest.b);
   return {fmt::format(
-      "points = {} are too few for this shape: its boundary alone needs {}{:.0f}. Each corner takes a point, and so "
-      "does each place where the boundary comes near itself; the shortest boundary edge, {:.3g} long, is at {}; use "
+      "points = {} are too few for this shape: {} needs {}{:.0f}. Each corner takes a point, and so "
+      "does each place where the boundary comes near itself; the shortest {}edge, {:.3g} long, is at {}; use "
       "more points, or simplify the shape there",
-      *context.options.points, fewest.counted ? "" : "more than ", fewest.points,
+      *context.options.points,
+      fewest.inside ? "its boundary with the curves and interfaces inside" : "its boundary alone",
+      fewest.counted ? "" : "more than ", fewest.points, fewest.inside ? "" : "boundary ",
       geometry::length(fewest.shortest.b - fewest.shortest.a), Place(place, 6))};
 }
 

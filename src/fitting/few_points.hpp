@@ -22,8 +22,9 @@ struct TooFewPoints {
 /// The boundary with the fewest points among all trials, and the place where its sites are closest together.
 struct Fewest {
   double points = INFINITY;
-  bool counted = true; ///< if false, counting was stopped early, and there are more than `points`
-  geometry::Segment shortest{};
+  bool counted = true;          ///< if false, counting was stopped early, and there are more than `points`
+  geometry::Segment shortest{}; ///< edge on the boundary or on a line inside
+  bool inside = false;          ///< whether that edge lies on a line inside
 
   /// @param all_counted if true, all points of the trial were counted
   void consider(const sites::Stage& stage, double trial_points, bool all_counted = true);

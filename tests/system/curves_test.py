@@ -327,7 +327,7 @@ class Curves(unittest.TestCase):
                  (section("union", "x.xy"), 2, "cannot name a curve"),
                  (section("c", "x.xy", "attribute = kind"), 2, "attribute"),
                  (section("c", "x.xy", "normalize_with = other"), 2, "normalize"),
-                 (section("c", "x.xy") + "[domain]\nperiodic_x = true\n", 2, "periodic"),
+                 (section("c", "x.xy") + "split = true\n[domain]\nperiodic_x = true\n", 2, "periodic"),
                  (section("c", "x.xy", "clipp = true"), 2, "clip")]
         for ranks in (1, 3):
             for curves, code, words in cases:

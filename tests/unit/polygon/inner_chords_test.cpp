@@ -103,5 +103,43 @@ TEST(InnerChords, KeepTheMarksOfTheirSites) {
   EXPECT_EQ(inner.index_of(on_circle(2)), -1);
 }
 
+/// A line from the left to the right side of a torus, whose sites lie at 0.25 and 0.75.
+InnerChords line_around() {
+  InnerChords inner;
+  inner.periods = geometry::Frame(geometry::unit_square, true, true).periods();
+  inner.chords = {{{{0.25, 0.5}, {0.75, 0.5}}, 0}, {{{0.75, 0.5}, {1.25, 0.5}}, 0}};
+  inner.sites = {{0.25, 0.5}, {0.75, 0.5}};
+  inner.corner = {0, 0};
+  inner.track = {InnerChords::straight, InnerChords::straight};
+  inner.sort_ends();
+  return inner;
+}
+
+TEST(InnerChords, LeadAcrossTheSidesOfPeriodicContainers) {
+  const InnerChords inner = line_around();
+  ASSERT_EQ(inner.at({0.25, 0.5}).size(), 2u);
+  for (const LocalIndex half : inner.at({0.25, 0.5}))
+    EXPECT_EQ(inner.other_end(half), half == 0 ? (Vec2{0.75, 0.5}) : (Vec2{-0.25, 0.5}));
+  EXPECT_EQ(inner.end(3), (Vec2{0.25, 0.5}));
+}
+
+TEST(InnerChords, FollowTheirSitesAcrossASide) {
+  InnerChords inner = line_around();
+  inner.move_sites(std::vector<InnerMove>{{0, {0.875, 0.5}}, {1, {0.625, 0.5}}}); // the first one goes back by 0.375
+  EXPECT_EQ(inner.sites, (std::vector<Vec2>{{0.625, 0.5}, {0.875, 0.5}}));
+  EXPECT_EQ(inner.chords[0].ends.a, (Vec2{0.875, 0.5}));
+  EXPECT_EQ(inner.chords[0].ends.b, (Vec2{1.625, 0.5}));
+  EXPECT_EQ(inner.chords[1].ends.a, (Vec2{0.625, 0.5}));
+  EXPECT_EQ(inner.chords[1].ends.b, (Vec2{0.875, 0.5}));
+}
+
+TEST(InnerChords, FindTheImageOfACircleThatPassesNearAPlace) {
+  const InnerChords inner = line_around();
+  const SlideCircle circle{{0.125, 0.5}, 0.25};
+  EXPECT_EQ(inner.center_near(circle, {0.375, 0.5}), (Vec2{0.125, 0.5}));
+  EXPECT_EQ(inner.center_near(circle, {0.875, 0.5}), (Vec2{1.125, 0.5}));
+  EXPECT_EQ(inner.center_near(circle, {-0.125, 0.5}), (Vec2{0.125, 0.5}));
+}
+
 } // namespace
 } // namespace trime::polygon
