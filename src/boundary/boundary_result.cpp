@@ -96,9 +96,8 @@ std::int32_t BoundaryRefiner::track_of(const Site& site, const geometry::InnerAr
 
 /// The chords of the curves inside, and their sites that do not lie on the boundary.
 polygon::InnerChords BoundaryRefiner::inner_chords() const {
-  const geometry::Periods& periods = boundary_.periods;
   polygon::InnerChords inner;
-  inner.periods = periods;
+  inner.periods = boundary_.periods;
   struct Record {
     Vec2 position;
     std::uint8_t corner;
@@ -112,7 +111,7 @@ polygon::InnerChords BoundaryRefiner::inner_chords() const {
     LocalIndex k = loop_first_[loop];
     do {
       const Site& site = sites_[k];
-      const Vec2 canonical = periods.wrap(site.position);
+      const Vec2 canonical = inner.periods.wrap(site.position);
       if (site.vertex == k) // of several curves' ends the first one
         sites.push_back({canonical, site.kind != SiteKind::plain, track_of(site, arc, loss, inner)});
       if (site.next >= 0) {

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -136,46 +137,59 @@ void FixedPoints::take_corners() {
     cornered_ = cornered->result();
 }
 
+namespace {
+
+/// Points inside a piece that are at most `spacing` apart.
+std::vector<Vec2> points_between(const geometry::Piece& piece, double spacing, const geometry::Lattice& lattice) {
+  const double length = piece.length(), parts = std::fmax(1, std::ceil(length / spacing));
+  std::vector<Vec2> points;
+  for (int k = 1; k < static_cast<int>(parts); ++k)
+    points.push_back(lattice.snap(piece.point(k / parts * length)));
+  return points;
+}
+
+/// Returns the distance of a piece from the nearest periodic image of a point.
+double distance_of_images(const geometry::Piece& piece, Vec2 p, const geometry::Periods& periods) {
+  const Vec2 near = periods.nearest_image(p, 0.5 * (piece.start + piece.end));
+  double least = std::numeric_limits<double>::infinity();
+  for (const Vec2 shift : images_of(periods))
+    least = std::fmin(least, piece.distance(near + shift));
+  return least;
+}
+
+} // namespace
+
 void FixedPoints::hold(const geometry::Domain& domain) {
   const geometry::InnerCurves& curves = domain.curves();
   if (curves.empty())
     return;
+  const geometry::Periods& periods = given_boundary_.periods;
   const geometry::Box box = given_boundary_.bounding_box();
   const double spacing = BoundaryRules::held_spacing * std::max(box.width(), box.height());
-  const geometry::Periods& periods = given_boundary_.periods;
-  const auto canonical = [&](Vec2 p) { return periods.wrap(p); };
-  const std::vector<Vec2> images = images_of(periods);
-  const auto distance_of_images = [&](const geometry::Piece& piece, Vec2 p) {
-    const Vec2 near = periods.nearest_image(p, 0.5 * (piece.start + piece.end));
-    double least = std::numeric_limits<double>::infinity();
-    for (const Vec2 shift : images)
-      least = std::fmin(least, piece.distance(near + shift));
-    return least;
-  };
   std::vector<Vec2> nodes;
   for (const geometry::InnerArc& arc : curves.arcs)
     for (const geometry::Piece& piece : arc.pieces) {
-      const double length = piece.length(), parts = std::fmax(1, std::ceil(length / spacing));
-      if (&piece != &arc.pieces.front() || arc.closed)
-        held_.push_back(canonical(piece.start));
-      for (int k = 1; k < static_cast<int>(parts); ++k)
-        held_.push_back(canonical(lattice_.snap(piece.point(k / parts * length))));
-      if (&piece == &arc.pieces.front())
-        nodes.push_back(canonical(piece.start));
-      if (&piece == &arc.pieces.back())
-        nodes.push_back(canonical(piece.end));
+      const Vec2 start = periods.wrap(piece.start), end = periods.wrap(piece.end);
+      const bool is_first = &piece == &arc.pieces.front(), is_last = &piece == &arc.pieces.back();
+      if (!is_first || arc.closed)
+        held_.push_back(start);
+      for (const Vec2 p : points_between(piece, spacing, lattice_))
+        held_.push_back(periods.wrap(p));
+      if (is_first)
+        nodes.push_back(start);
+      if (is_last)
+        nodes.push_back(end);
       for (const Vec2 p : inside_)
-        if (p == canonical(piece.start) || p == canonical(piece.end))
+        if (p == start || p == end)
           on_curves_.push_back(p);
-        else if (distance_of_images(piece, p) <= tolerance_)
+        else if (distance_of_images(piece, p, periods) <= tolerance_)
           throw GeometryError(fmt::format("{}: the fixed point {} lies on the {}, but is not a vertex of it; "
                                           "make it a vertex of the curve or of a part instead",
                                           label(p), Place(p, 12), domain.line_name(piece.part, arc.left, arc.right)));
     }
   const geometry::PieceTree boundary(given_boundary_);
-  for (const Vec2 p : nodes)
-    if (boundary.distance(p) > tolerance_)
-      held_.push_back(p);
+  std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(held_),
+               [&](Vec2 p) { return boundary.distance(p) > tolerance_; });
   std::sort(on_curves_.begin(), on_curves_.end(), geometry::lexicographically_less);
   std::erase_if(inside_, [this](Vec2 p) {
     return std::binary_search(on_curves_.begin(), on_curves_.end(), p, geometry::lexicographically_less);

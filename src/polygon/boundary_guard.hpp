@@ -101,7 +101,7 @@ private:
 
   geometry::Periods periods_;
   geometry::SegmentGrid chords_;          // each as the periodic image whose middle lies in the container
-  geometry::SegmentGrid inner_;           // chords of curves inside the shape, as such images
+  geometry::SegmentGrid inner_;           // chords of curves inside the shape; the image is chosen in the same way
   std::vector<geometry::Segment> images_; // images of chords whose diametral circles reach into the container; then the
                                           // chords of curves inside the shape, and their images
   LocalIndex first_inner_ = 0;            // index in images_ of the first chord of a curve

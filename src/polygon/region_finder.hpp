@@ -51,7 +51,7 @@ private:
   std::vector<std::vector<LocalIndex>> outlines_; // by region: chords as 2 k if it is on the left, else 2 k + 1; those
                                                   // inside follow those of the boundary
   std::vector<geometry::SegmentGrid> grids_;      // by region from 1, without empty ones
-  std::vector<geometry::PeriodicOutline> periodic_; // the same in a periodic container
+  std::vector<geometry::PeriodicOutline> periodic_; // replace grids_ in a periodic container
   std::vector<int> regions_of_grids_;
   geometry::BoxTree boxes_;             // one for each grid
   std::vector<std::size_t> everywhere_; // periodic outlines that have no box

@@ -85,8 +85,13 @@ geometry::Boundary named_curves(const geometry::Domain& domain) {
   for (std::size_t pair = 0; pair < regions.pairs.size(); ++pair)
     named.part_names.push_back(regions.pair_name(pair));
   for (const geometry::InnerArc& arc : inner.arcs)
-    for (geometry::Piece& piece : named.loops.emplace_back(geometry::Loop{arc.pieces}).pieces)
+    for (geometry::Piece& piece : named.loops.emplace_back(geometry::Loop{arc.pieces}).pieces) {
       piece.part = piece.part >= 0 ? parts + piece.part : first_pair + regions.pair_of(arc.left, arc.right);
+      const geometry::Vec2 middle = 0.5 * (piece.start + piece.end), home = named.periods.wrap(middle) - middle;
+      piece.start = piece.start + home; // an arc may lead far out of a periodic container
+      piece.end = piece.end + home;
+      piece.center = piece.center + home;
+    }
   return named;
 }
 

@@ -130,11 +130,11 @@ struct MeshOptions {
   bool periodic_x = false, periodic_y = false; ///< joins opposite sides of the container; needs `container`
   std::vector<Vec2> fixed_points{};            ///< points that become vertices of the mesh, and are never moved
   /// The regions of the shape. The first one that contains a place has it; what lies in none of them is region 1, the
-  /// rest, and the regions of this list are 2, 3, ... Not in a periodic container.
+  /// rest, and the regions of this list are 2, 3, ...
   std::vector<Region> regions{};
   std::string rest{};                  ///< name of the rest; empty: the text of the shape
   bool regions_cover_all = false;      ///< if true, a rest with an area is a GeometryError
-  std::vector<Curve> curves{};         ///< curves inside the shape; not in a periodic container
+  std::vector<Curve> curves{};         ///< curves inside the shape; not split in a periodic container
   boundary::FeatureOptions features{}; ///< which corners, islands and lakes the mesh keeps
   int max_sweeps = 500;
   double worst_alpha =
