@@ -39,7 +39,8 @@ struct Vertex {
   double length;
 };
 
-std::vector<Vertex> thinned(const geometry::Loop& loop, double spacing) {
+/// @param divides_lines long straight pieces get vertices, too
+std::vector<Vertex> thinned(const geometry::Loop& loop, double spacing, bool divides_lines) {
   std::vector<Vertex> vertices;
   double since = 0;
   const auto pass = [&](Vec2 p, bool must) {
@@ -52,7 +53,9 @@ std::vector<Vertex> thinned(const geometry::Loop& loop, double spacing) {
     const geometry::Piece& piece = loop.pieces[k];
     pass(piece.start, k == 0);
     const double length = piece.length();
-    const double parts = piece.circular ? std::ceil(std::fabs(piece.sweep) / arc_step) : 1;
+    const double parts = piece.circular  ? std::ceil(std::fabs(piece.sweep) / arc_step)
+                         : divides_lines ? std::fmax(1, std::ceil(length / spacing))
+                                         : 1;
     for (double part = 1; part < parts; ++part) {
       since += length / parts;
       pass(piece.point(length * (part / parts)), false);
@@ -64,13 +67,15 @@ std::vector<Vertex> thinned(const geometry::Loop& loop, double spacing) {
 }
 
 /// Sites at the vertices. Loops of fewer than three are left out.
+/// @param divides_bands loops that wind around the container get at least three: a straight one has only one vertex
 BoundarySites polygon_of(const geometry::Boundary& boundary, const geometry::Lattice& lattice, double spacing,
-                         std::vector<double>& lengths) {
+                         bool divides_bands, std::vector<double>& lengths) {
   BoundarySites polygon;
   const geometry::Periods& periods = polygon.periods = boundary.periods;
   polygon.loop_start.push_back(0);
   for (const geometry::Loop& loop : boundary.loops) {
-    const std::vector<Vertex> vertices = thinned(loop, loop.winds() ? std::fmin(spacing, loop.length() / 8) : spacing);
+    const std::vector<Vertex> vertices =
+        thinned(loop, loop.winds() ? std::fmin(spacing, loop.length() / 8) : spacing, loop.winds() && divides_bands);
     const auto n = static_cast<LocalIndex>(vertices.size()), first = polygon.loop_start.back();
     if (n < 3)
       continue;
@@ -110,7 +115,8 @@ CountEstimate::CountEstimate(const LayoutContext& context, double points, double
     : context_(context), points_(points), coarsening_(coarsening) {
   BoundarySites polygon;
   comm::run_agreed(context.comm, [&] {
-    polygon = polygon_of(context.fixed.cornered_boundary(), context.lattice, spacing, lengths_);
+    polygon =
+        polygon_of(context.fixed.cornered_boundary(), context.lattice, spacing, context.options.absolute, lengths_);
   });
   corners_ = count_corners(context.fixed.cornered_boundary(), context.options.features.corner_angle);
   if (!polygon.sites.empty() || context.given_boundary.covers_torus)

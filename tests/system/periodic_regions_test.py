@@ -275,6 +275,9 @@ class PeriodicRegions(unittest.TestCase):
         mesh = self.mesh("[curve.wall]\nfile = wall.xy\n", periodic=ALONG_X)
         self.assertAlmostEqual(mesh.curve_length("wall"), math.hypot(0.2, 1), delta=EXACT)
         self.assertEqual(mesh.degrees(), Counter({3: 2}))
+        sizes = "[sizing]\nscale = absolute\nmax_size = 0.06\nsize_at = wall 0.02\n"
+        mesh = self.mesh("[curve.wall]\nfile = wall.xy\n" + sizes, periodic=ALONG_X, points=20000)
+        self.assertLess(abs(mesh.lengths(mesh.curve_edges) / 0.02 - 1).max(), 0.3)
 
     def test_size_in_a_region(self):
         text = (circle("disc", 0.2, "0 0") + region("phase", "disc") + "size = 0.02\n" +
