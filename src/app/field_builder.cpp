@@ -89,9 +89,9 @@ std::vector<FormulaField> functions_of(const std::vector<BuiltField>& fields) {
 }
 
 std::string hashes_of(const std::vector<BuiltField>& fields) {
-  std::string text;
+  std::string text = fields.empty() ? "" : "\n[hashes of data]\n";
   for (const BuiltField& field : fields)
-    text += fmt::format("; the data of [field.{}] have the hash {:016x}\n", field.name, field.hash);
+    text += fmt::format("{} = {:016x}\n", field.name, field.hash);
   return text;
 }
 

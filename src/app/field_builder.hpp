@@ -31,7 +31,8 @@ std::vector<BuiltField> read_fields(const RunOptions& options, const ShapeInput&
 /// Returns the variables of the formula. They share the fields.
 std::vector<FormulaField> functions_of(const std::vector<BuiltField>& fields);
 
-/// Returns comment lines for the config in a checkpoint, so that a restart with other data is refused.
+/// Returns a section with a hash of each field for the config in a checkpoint, so that a restart with other data is
+/// refused.
 std::string hashes_of(const std::vector<BuiltField>& fields);
 
 /// Returns the bytes of all values, which each rank holds.
