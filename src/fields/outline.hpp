@@ -13,7 +13,7 @@ namespace trime::fields {
 
 /// Closed chains of places in the coordinates of the file, at most half a cell apart. Longitudes go on across the seam.
 struct Outline {
-  std::vector<std::vector<geometry::Vec2>> loops, in_plane; ///< the same places in the coordinates of the mesh
+  std::vector<std::vector<geometry::Vec2>> loops, in_plane; ///< coordinates of the file, and of the mesh
   bool winds = false; ///< true if a loop goes around the Earth; then the shape holds a pole
   geometry::Box box;  ///< in the coordinates of the file
 };

@@ -23,7 +23,7 @@ struct FieldRequest {
   Fill fill = Fill::refuse;
   double fill_value = 0;
   bool outside_is_nearest = false; ///< places outside of the raster get the nearest value; otherwise they are an error
-  double period = 0;               ///< of x in the file: 360 if it is a longitude, otherwise 0
+  double period = 0;               ///< period of x in the file: 360 if it is a longitude, otherwise 0
 };
 
 /// Converts a place of the mesh to the coordinates of the file. Thread-safe.

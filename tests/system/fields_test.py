@@ -140,7 +140,8 @@ class Fields(unittest.TestCase):
         """A bay across the date line, with data from 0 to 360 and from -180 to 180."""
         with Workspace() as work:
             (work / "bay.geojson").write_text(
-                '{"type": "Polygon", "coordinates": [[[179, 60], [181, 60], [181, 61], [179, 61], [179, 60]]]}', "ascii")
+                '{"type": "Polygon", "coordinates": [[[179, 60], [181, 60], [181, 61], [179, 61], [179, 60]]]}',
+                "ascii")
             config = ("[shape]\ngeometry = bay\nprojection = auto\n[shape.bay]\ntype = contour\nfile = bay.geojson\n"
                       "[field.depth]\nfile = {}\n[sizing]\ntype = expression\nexpression = 100*sqrt(-depth)\n")
             y = numpy.arange(58, 63.01, 0.5)
@@ -155,7 +156,8 @@ class Fields(unittest.TestCase):
                     self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
                     with h5py.File(work / "d.h5") as mesh:
                         hashes.add(mesh["trime_mpi"].attrs["mesh_hash"])
-                        numpy.testing.assert_allclose(mesh["VTKHDF/PointData/size"][:], 100 * numpy.sqrt(500), rtol=0.02)
+                        sizes = mesh["VTKHDF/PointData/size"][:]
+                    numpy.testing.assert_allclose(sizes, 100 * numpy.sqrt(500), rtol=0.02)
             self.assertEqual(len(hashes), 1)
 
 
