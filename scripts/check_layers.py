@@ -41,13 +41,14 @@ ARROWS = {
                 "sites", "fitting", "start", "sweep", "cleanup", "extraction", "certificate", "splitting"],
     "refinement": ["comm", "geometry", "mesh", "polygon", "handover", "extraction", "certificate"],
     "io": ["comm", "mesh"],
+    "fields": ["comm", "geometry", "contours", "io"],
     "checkpoint": ["comm", "sweep", "meshing", "io"],
     "record": ["comm", "geometry", "mesh", "shape", "polygon", "boundary", "sweep", "meshing", "io"],
     "formats": ["comm", "geometry", "mesh", "projection", "io"],
     "handover": ["comm", "geometry", "mesh"],
     "facade": ["comm", "geometry", "contours", "tracing", "shape", "sizing", "boundary", "sweep", "mesh", "meshing",
                "io", "record", "formats", "handover"],
-    "app": ["comm", "geometry", "contours", "tracing", "shape", "projection", "sizing", "polygon", "boundary",
+    "app": ["comm", "geometry", "contours", "tracing", "shape", "projection", "fields", "sizing", "polygon", "boundary",
             "sites", "fitting", "meshing", "refinement", "io", "checkpoint", "record", "formats"],
 }
 # Foreign headers that only some modules may see, as (pattern, name, modules).

@@ -438,7 +438,7 @@ RunOptions parse_config(std::string_view text, const std::string& path, const st
   const Settings settings(document, problems);
   read_domain(settings, options, problems);
   read_shape_options(settings, fs::path(path).parent_path(), options, problems);
-  read_sizing(settings, options, problems);
+  read_sizing(settings, fs::path(path).parent_path(), options, problems);
   read_meshing(settings, options.container, options.mesh, problems);
   read_fixed_points_options(settings, fs::path(path).parent_path(), options, problems);
   read_parallel(settings, options);

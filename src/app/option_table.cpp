@@ -256,6 +256,39 @@ const Option table[] = {
      .fallback = "none",
      .meaning = "name of a normalised contour; the curve is moved and scaled in the same way as this contour"},
 
+    {.section = "field.NAME",
+     .key = "file",
+     .kind = OptionKind::path,
+     .meaning =
+         "a raster of numbers, such as the depth of the sea, whose name is a variable of the formula of [sizing]: "
+         "an ESRI ASCII grid or a NetCDF-4 file"},
+    {.section = "field.NAME",
+     .key = "variable",
+     .kind = OptionKind::text,
+     .fallback = "none",
+     .meaning = "name of the variable of a NetCDF file; needed if the file has several ones with two dimensions"},
+    {.section = "field.NAME",
+     .key = "fill",
+     .fallback = "error",
+     .choices = "error nearest",
+     .meaning = "where the shape needs a value that the file marks as missing: `error`: the run ends; `nearest`: the "
+                "other values around count, or the nearest one; a number: this number"},
+    {.section = "field.NAME",
+     .key = "outside",
+     .kind = OptionKind::word,
+     .fallback = "error",
+     .choices = "error nearest",
+     .meaning =
+         "where the shape lies outside of the raster: `error`: the run ends; `nearest`: the nearest value counts"},
+    {.section = "field.NAME",
+     .key = "coordinates",
+     .kind = OptionKind::word,
+     .fallback = "auto",
+     .choices = "auto degrees plane",
+     .meaning =
+         "coordinates of the raster: `degrees`: longitude and latitude; `plane`: those of the mesh; auto: degrees "
+         "if the contours are projected and the raster lies within 360 and 90"},
+
     {.section = "sizing",
      .key = "type",
      .kind = OptionKind::word,
@@ -266,9 +299,10 @@ const Option table[] = {
     {.section = "sizing",
      .key = "scale",
      .kind = OptionKind::word,
-     .fallback = "fit",
-     .choices = "fit absolute",
-     .meaning = "`fit`: only ratios of sizes count, and a factor makes the number of `points` or the mean "
+     .fallback = "auto",
+     .choices = "auto fit absolute",
+     .meaning = "auto: `absolute` if the formula uses data of [field.NAME], otherwise `fit`. `fit`: only ratios of "
+                "sizes count, and a factor makes the number of `points` or the mean "
                 "`edge_length`; `absolute`: sizes are lengths, and `points` is a limit or missing"},
     {.section = "sizing",
      .key = "gradation",
@@ -561,6 +595,7 @@ std::string_view table_section(std::string_view section) {
   return section.starts_with("shape.")    ? part_section
          : section.starts_with("region.") ? region_section
          : section.starts_with("curve.")  ? curve_section
+         : section.starts_with("field.")  ? field_section
                                           : section;
 }
 

@@ -60,12 +60,25 @@ struct CurveOptions {
   std::string normalize_with;    ///< name of the contour whose normalisation is applied; empty: no normalisation
 };
 
+/// One section [field.NAME] of a config.
+struct FieldOptions {
+  std::string name;
+  std::string file;              ///< path, as PartOptions::file
+  bool file_is_relative = false; ///< true if the user gave the path relative to the config file
+  std::string variable;          ///< of a NetCDF file; empty: its only one
+  std::string fill;              ///< `error`, `nearest`, or a number, which `fill_value` holds
+  double fill_value = 0;
+  bool outside_is_nearest = false;
+  std::string coordinates; ///< auto, degrees or plane
+};
+
 /// The section [sizing] of a config. The absolute bounds of the size are in meshing::MeshOptions.
 struct SizingOptions {
-  std::string type = "uniform"; ///< uniform, automatic or expression
-  double gradation = 0.1;       ///< K of the type automatic; 0 makes the size uniform
-  std::string expression;       ///< formula of the size, already checked, if the type is expression
-  std::string expression_place; ///< origin of the formula for messages: "config.ini:17: 'expression' in [sizing]"
+  std::string type = "uniform";     ///< uniform, automatic or expression
+  double gradation = 0.1;           ///< K of the type automatic; 0 makes the size uniform
+  std::string expression;           ///< formula of the size, already checked, if the type is expression
+  std::vector<FieldOptions> fields; ///< data that the formula may use
+  std::string expression_place;     ///< origin of the formula for messages: "config.ini:17: 'expression' in [sizing]"
   std::vector<sizing::NamedSize> size_at; ///< lengths on parts of the boundary
   std::string size_at_place;              ///< origin of `size_at` for messages
 };
@@ -101,10 +114,11 @@ struct RunOptions {
       mesh; ///< options of the mesher, without the fixed points, which are read together with the shape
   FixedPointsFile fixed_points;
   SizingOptions sizing;
-  int setup_threads = 0;         ///< threads per rank while shape and size field are made; 0: chosen from the machine
-  int mesh_threads = 0;          ///< threads per rank during meshing; 0: chosen from the machine
-  formats::SeriesOptions output; ///< options of the output, without the names of the parts, which the shape knows
-  bool write = true;             ///< false if no file is written
+  bool scale_is_automatic = false; ///< true if the user does not say whether sizes are lengths
+  int setup_threads = 0;           ///< threads per rank while shape and size field are made; 0: chosen from the machine
+  int mesh_threads = 0;            ///< threads per rank during meshing; 0: chosen from the machine
+  formats::SeriesOptions output;   ///< options of the output, without the names of the parts, which the shape knows
+  bool write = true;               ///< false if no file is written
   CheckpointOptions checkpoint;
   LogLevel log_level = LogLevel::summary;
   int log_interval = 0;

@@ -233,19 +233,32 @@ ShapeInput read_input(const Job& job) {
   return input;
 }
 
+/// The data that the formula of the size uses. Collective.
+std::vector<BuiltField> read_data(const Job& job, const ShapeInput& input) {
+  if (job.options.sizing.fields.empty())
+    return {};
+  const auto timing = job.timers.scope("size field");
+  std::vector<BuiltField> fields = read_fields(job.options, input, job.comm);
+  for (const BuiltField& field : fields)
+    job.log.info("field {}: {}", field.name, description_of(field));
+  if (job.options.scale_is_automatic)
+    job.log.summary("scale = absolute, since the formula of the size uses data: its values are lengths");
+  return fields;
+}
+
 /// One mesh, from the config to its files. All functions are collective.
 class MeshRun {
 public:
   /// Prepares: reads all input and checks that the output can be written.
   explicit MeshRun(const Job& job)
-      : job_(job), placement_(set_up_threads(job)), input_(read_input(job)),
+      : job_(job), placement_(set_up_threads(job)), input_(read_input(job)), fields_(read_data(job, input_)),
         keeper_({job.comm, checkpoint_options(job), job.signals, job.timers, job.log}, job.options.checkpoint,
-                job.line.time_limit, {program_name(), job.options.resolved}),
+                job.line.time_limit, {program_name(), job.options.resolved + hashes_of(fields_)}),
         saved_(keeper_.find(job.line.restart)), // before directories are made
         series_(series_options(job, input_), job.comm), mesh_(placed_options(job.options, input_, job.comm)) {
     size_ = [&] {
       const auto timing = job.timers.scope("size field");
-      return build_size(job.options, input_.domain(), job.comm, input_.bounds);
+      return build_size(job.options, input_.domain(), job.comm, input_.bounds, fields_);
     }();
     points_ = meshing::Mesher(job.comm, input_.domain(), *size_.field, mesh_, job.log, job.timers).expected_points();
     check_output();
@@ -267,6 +280,7 @@ private:
   const Job& job_;
   const Placement placement_;
   const ShapeInput input_;
+  const std::vector<BuiltField> fields_;
   CheckpointKeeper keeper_;
   const std::optional<meshing::SavedRun> saved_; // where the run goes on
   formats::MeshSeries series_;

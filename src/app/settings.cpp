@@ -2,6 +2,7 @@
 #include "app/settings.hpp"
 
 #include "app/option_value.hpp"
+#include "core/distance_formula.hpp"
 #include "core/quoted.hpp"
 #include "trime/core/error.hpp"
 
@@ -50,7 +51,9 @@ Settings::Settings(const IniDocument& document, Diagnostics& problems) {
   for (const std::string& part : parts())
     check_part("shape." + part, problems);
   for (const std::string& curve : curves())
-    check_curve("curve." + curve, problems);
+    check_file("curve." + curve, problems);
+  for (const std::string& field : fields())
+    check_file("field." + field, problems);
 }
 
 /// The kind of named section to which a section belongs; null if it belongs to none.
@@ -82,7 +85,7 @@ void Settings::check_sections(const IniDocument& document, Diagnostics& problems
   }
 }
 
-/// The name of a part, a region or a curve.
+/// The name of a part, a region, a curve or a field.
 void Settings::check_name(const IniSection& section, Diagnostics& problems) {
   NamedSections& kind = named_[static_cast<std::size_t>(named(section.name) - named_.data())];
   const std::string name = section.name.substr(kind.prefix.size());
@@ -97,13 +100,17 @@ void Settings::check_name(const IniSection& section, Diagnostics& problems) {
     problems.add(section.line,
                  fmt::format("'{}' cannot name a {}: use letters, digits and '_', and begin with a letter", shown(name),
                              kind.what));
-  else if (&kind != &named_[regions_at] && (is_other(parts_at) || is_other(curves_at)))
+  else if (&kind == &named_[fields_at] && is_word_of_formulas(name))
+    problems.add(section.line, fmt::format("'{}' cannot name a field, because formulas use this word; choose another "
+                                           "name",
+                                           shown(name)));
+  else if (&kind != &named_[regions_at] && &kind != &named_[fields_at] && (is_other(parts_at) || is_other(curves_at)))
     problems.add(section.line, fmt::format("'{}' names a part and a curve: expected different names", shown(name)));
   else if (kind.known.insert(name).second)
     kind.names.push_back(name);
 }
 
-void Settings::check_curve(const std::string& section, Diagnostics& problems) {
+void Settings::check_file(const std::string& section, Diagnostics& problems) {
   if (!is_set(section, "file"))
     problems.add(section_line(section),
                  fmt::format("[{}] needs 'file': {}", shown(section), expectation(*find_option(section, "file"))));

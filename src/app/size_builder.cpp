@@ -62,17 +62,20 @@ void check_periods(const DistanceFormula& formula, const RunOptions& options, co
   }
 }
 
-BuiltSize expression_size(const RunOptions& options, const geometry::Domain& domain) {
+BuiltSize expression_size(const RunOptions& options, const geometry::Domain& domain,
+                          const std::vector<BuiltField>& fields) {
   const SizingOptions& sizing = options.sizing;
   const geometry::Box box =
       domain.frame().periods().any() ? domain.frame().container() : domain.boundary().bounding_box();
   BuiltSize size;
   size.formula = std::make_unique<const DistanceFormula>(
-      sizing.expression, sizing.expression_place, [&](const std::string& name) -> PlaceFunction {
+      sizing.expression, sizing.expression_place,
+      [&](const std::string& name) -> PlaceFunction {
         const auto curves = std::make_shared<const sizing::BoundaryDistance>(
             name.empty() ? domain.boundary() : sizing::named_curves(domain), name, images_of(domain));
         return [curves](double x, double y) { return curves->distance({x, y}); };
-      });
+      },
+      functions_of(fields));
   size.field = std::make_unique<const sizing::DistanceSize>(*size.formula, box);
   size.description = "expression " + sizing.expression;
   check_periods(*size.formula, options, domain.frame());
@@ -160,13 +163,13 @@ void lower_in_regions(const RunOptions& options, const geometry::Domain& domain,
 } // namespace
 
 BuiltSize build_size(const RunOptions& options, const geometry::Domain& domain, const comm::Communicator& comm,
-                     std::vector<sizing::RegionBound> bounds) {
+                     std::vector<sizing::RegionBound> bounds, const std::vector<BuiltField>& fields) {
   check_largest_size(options, domain);
   BuiltSize size;
   if (options.sizing.type == "automatic") {
     size = automatic_size(options, domain, comm);
   } else if (options.sizing.type == "expression") {
-    size = expression_size(options, domain); // the same on all ranks, errors too
+    size = expression_size(options, domain, fields); // the same on all ranks, errors too
   } else {
     size.field = std::make_unique<const sizing::UniformSize>(
         options.mesh.absolute_sizes ? options.mesh.max_size.value_or(1) : 1.0);
@@ -177,6 +180,8 @@ BuiltSize build_size(const RunOptions& options, const geometry::Domain& domain, 
     lower_at_boundary(options, domain, size);
   if (options.mesh.absolute_sizes)
     size.description += ", absolute";
+  if (!fields.empty())
+    size.description += fmt::format(", {:.3g} MB of data", static_cast<double>(bytes_of(fields)) / 1e6);
   if (options.mesh.min_size)
     size.description += fmt::format(", at least {:.6g}", *options.mesh.min_size);
   if (options.mesh.max_size)

@@ -2,6 +2,7 @@
 // Makes the size field from the options of a run.
 #pragma once
 
+#include "app/field_builder.hpp"
 #include "app/options.hpp"
 #include "core/distance_formula.hpp"
 #include "sizing/region_size.hpp"
@@ -28,6 +29,6 @@ struct BuiltSize {
 /// @throws ConfigError on all ranks together
 /// @note Collective.
 BuiltSize build_size(const RunOptions& options, const geometry::Domain& domain, const comm::Communicator& comm,
-                     std::vector<sizing::RegionBound> bounds = {});
+                     std::vector<sizing::RegionBound> bounds = {}, const std::vector<BuiltField>& fields = {});
 
 } // namespace trime::app

@@ -16,8 +16,10 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace trime {
@@ -132,10 +134,11 @@ constexpr std::size_t longest_text = 4096; // of a formula, in bytes
 // No text in UTF-8 has this byte. It begins the names of the variables that stand for distances.
 constexpr char distance_sign = '\xff';
 
-/// A use of `dist(NAME)`, the characters [begin, end) of a formula.
+/// A use of `dist(NAME)` or `grad(NAME)`, the characters [begin, end) of a formula.
 struct DistanceUse {
   std::size_t begin, end;
   std::string name;
+  bool is_gradient = false;
 
   /// Returns the variable that stands for this use, as long as the use itself.
   std::string variable(std::size_t number) const {
@@ -149,10 +152,11 @@ struct DistanceUse {
 struct alignas(64) Slot {
   std::atomic_flag taken = ATOMIC_FLAG_INIT;
   double x = 0, y = 0;
-  std::vector<double> distances;
+  std::vector<double> distances, fields;
   mu::Parser parser;
 
-  Slot(std::string text, const std::vector<DistanceUse>& uses) : distances(uses.size(), 1.0) {
+  Slot(std::string text, const std::vector<DistanceUse>& uses, const std::vector<FormulaField>& named)
+      : distances(uses.size(), 1.0), fields(named.size(), 1.0) {
     const char first_letter[] = {distance_sign, '\0'};
     parser.DefineNameChars(
         (std::string("0123456789_abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ") + first_letter).c_str());
@@ -163,6 +167,8 @@ struct alignas(64) Slot {
     define_functions(parser);
     parser.DefineVar("x", &x);
     parser.DefineVar("y", &y);
+    for (std::size_t k = 0; k < named.size(); ++k)
+      parser.DefineVar(named[k].name, &fields[k]);
     parser.DefineConst("pi", pi);
     parser.DefineConst("e", 0x1.5bf0a8b145769p+1);
     parser.SetExpr(with_our_power(text));
@@ -173,7 +179,19 @@ std::vector<std::string> known_names(const mu::Parser& parser) {
   std::vector<std::string> names{"x", "y", "pi", "e"};
   for (const auto& function : parser.GetFunDef())
     names.push_back(function.first);
+  for (const auto& variable : parser.GetVar())
+    if (variable.first.front() != distance_sign && variable.first != "x" && variable.first != "y")
+      names.push_back(variable.first);
   return names;
+}
+
+/// Returns the names of data fields with commas after them.
+std::string field_names(const mu::Parser& parser) {
+  std::string text;
+  for (const auto& variable : parser.GetVar())
+    if (variable.first.front() != distance_sign && variable.first != "x" && variable.first != "y")
+      text += variable.first + ", ";
+  return text;
 }
 
 /// Says what is wrong, without position and text.
@@ -189,10 +207,16 @@ std::string complaint(const mu::Parser& parser, const mu::ParserError& error) {
       return fmt::format("unknown name '{}'; in the formula of a size, dist() is the distance to the boundary, and "
                          "dist(NAME) that to a part of it",
                          token);
+    if (token.starts_with("grad"))
+      return fmt::format("unknown name '{}'; in the formula of a size, grad(NAME) is the slope of the data of "
+                         "[field.NAME]",
+                         token);
     const std::vector<std::string> names = known_names(parser);
     const std::string near = token.size() > 1 ? suggestion(token, names) : ""; // every letter is near to x
     return fmt::format("unknown name '{}'{}", token,
-                       near.empty() ? "; known are x, y, pi, e and functions such as sqrt, sin, min, max" : near);
+                       near.empty() ? fmt::format("; known are x, y, {}pi, e and functions such as sqrt, sin, min, max",
+                                                  field_names(parser))
+                                    : near);
   }
   case mu::ecUNEXPECTED_EOF:
     return "the expression ends too early";
@@ -266,9 +290,9 @@ std::optional<DistanceUse> distance_use(const std::string& text, std::size_t beg
   return DistanceUse{begin, close + 1, text.substr(first, last - first)};
 }
 
-/// Returns all uses of `dist(...)`, in their order.
-std::vector<DistanceUse> distance_uses(const std::string& where, const std::string& text) {
-  const std::string word = "dist";
+/// Returns all uses of `dist(...)` or `grad(...)`, in their order.
+std::vector<DistanceUse> distance_uses(const std::string& where, const std::string& text,
+                                       const std::string& word = "dist") {
   std::vector<DistanceUse> uses;
   for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at)) {
     const std::size_t begin = at, open = after_blanks(text, begin + word.size());
@@ -277,7 +301,7 @@ std::vector<DistanceUse> distance_uses(const std::string& where, const std::stri
       continue;
     const std::optional<DistanceUse> use = distance_use(text, begin, open);
     if (!use)
-      reject(where, text, open + 1, "the parenthesis of dist(NAME) is not closed");
+      reject(where, text, open + 1, fmt::format("the parenthesis of {}(NAME) is not closed", word));
     at = use->end;
     uses.push_back(*use);
   }
@@ -309,6 +333,7 @@ void check_characters(const std::string& text, const std::string& where) {
 struct Slots {
   std::string text, where;
   std::vector<DistanceUse> uses;
+  std::vector<FormulaField> fields;
   std::vector<std::unique_ptr<Slot>> slots;
 
   void fill();
@@ -331,7 +356,7 @@ void Slots::fill() {
   const std::size_t count =
       std::clamp<std::size_t>(std::max<std::size_t>(thread_count(), std::thread::hardware_concurrency()), 1, 256);
   for (std::size_t k = 0; k < count; ++k) {
-    slots.push_back(std::make_unique<Slot>(text, uses));
+    slots.push_back(std::make_unique<Slot>(text, uses, fields));
     Slot& slot = *slots.back();
     try {
       slot.parser.Eval(); // translates the text once
@@ -392,13 +417,32 @@ const std::string& Formula::where() const {
 }
 
 struct DistanceFormula::Store : Slots {
-  std::vector<PlaceFunction> distances;
+  std::vector<PlaceFunction> distances;   // by use
+  std::vector<std::size_t> used_fields{}; // indices of those fields that the formula uses as variables
+
+  void add_gradients();
 };
 
-DistanceFormula::DistanceFormula(const std::string& text, const std::string& where, const DistanceLookup& lookup)
+/// Adds all uses of `grad(NAME)`.
+void DistanceFormula::Store::add_gradients() {
+  for (DistanceUse use : distance_uses(where, text, "grad")) {
+    const auto field =
+        std::find_if(fields.begin(), fields.end(), [&](const FormulaField& one) { return one.name == use.name; });
+    if (field == fields.end())
+      reject(where, text, use.begin + 1,
+             fmt::format("grad('{}'): expected the name of a section [field.NAME]", use.name));
+    use.is_gradient = true;
+    uses.push_back(use);
+    distances.push_back(field->slope);
+  }
+}
+
+DistanceFormula::DistanceFormula(const std::string& text, const std::string& where, const DistanceLookup& lookup,
+                                 std::vector<FormulaField> fields)
     : store_(std::make_unique<Store>()) {
   store_->text = text;
   store_->where = where;
+  store_->fields = std::move(fields);
   check_characters(text, where);
   store_->uses = distance_uses(where, text);
   for (const DistanceUse& use : store_->uses)
@@ -407,7 +451,12 @@ DistanceFormula::DistanceFormula(const std::string& text, const std::string& whe
     } catch (const ConfigError& error) {
       reject(where, text, use.begin + 1, error.what());
     }
+  store_->add_gradients();
   store_->fill();
+  const auto& variables = store_->slots.front()->parser.GetUsedVar();
+  for (std::size_t k = 0; k < store_->fields.size(); ++k)
+    if (variables.contains(store_->fields[k].name))
+      store_->used_fields.push_back(k);
 }
 
 DistanceFormula::DistanceFormula(DistanceFormula&&) noexcept = default;
@@ -418,6 +467,8 @@ double DistanceFormula::evaluate(double x, double y) const {
   return value_of(*store_, x, y, [&](Slot& slot) {
     for (std::size_t k = 0; k < slot.distances.size(); ++k)
       slot.distances[k] = store_->distances[k](x, y);
+    for (const std::size_t k : store_->used_fields)
+      slot.fields[k] = store_->fields[k].value(x, y);
   });
 }
 
@@ -430,7 +481,24 @@ const std::string& DistanceFormula::where() const {
 }
 
 bool DistanceFormula::uses_distances() const {
-  return !store_->uses.empty();
+  return std::any_of(store_->uses.begin(), store_->uses.end(), [](const DistanceUse& use) { return !use.is_gradient; });
+}
+
+std::vector<std::string> DistanceFormula::fields() const {
+  std::set<std::string> names;
+  for (const std::size_t k : store_->used_fields)
+    names.insert(store_->fields[k].name);
+  for (const DistanceUse& use : store_->uses)
+    if (use.is_gradient)
+      names.insert(use.name);
+  return {names.begin(), names.end()};
+}
+
+bool is_word_of_formulas(const std::string& name) {
+  mu::Parser parser;
+  define_functions(parser);
+  const std::vector<std::string> known = known_names(parser);
+  return name == "dist" || name == "grad" || std::find(known.begin(), known.end(), name) != known.end();
 }
 
 } // namespace trime

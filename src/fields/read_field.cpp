@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fields/read_field.hpp"
+
+#include "comm/agree.hpp"
+#include "core/random.hpp"
+#include "fields/nearest_fill.hpp"
+#include "fields/outline.hpp"
+#include "trime/core/error.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <iterator>
+#include <span>
+#include <tuple>
+#include <utility>
+
+namespace trime::fields {
+namespace {
+
+constexpr std::int64_t band_values = std::int64_t{1} << 22; // read and sent at once
+constexpr std::int64_t margin = 2; // [cells] around the shape: simplified curves may leave it a little
+
+geometry::Box cells_of(const Axis& x, const Axis& y) {
+  return {{x.first - x.step / 2, y.first - y.step / 2}, {x.last() + x.step / 2, y.last() + y.step / 2}};
+}
+
+/// Returns how many columns make a period; 0 if the raster does not go around.
+std::int64_t columns_around(const Axis& x, double period) {
+  if (period <= 0)
+    return 0;
+  const double columns = std::rint(period / x.step);
+  const bool closes = std::fabs(columns * x.step - period) < 1e-6 * period;
+  return closes && static_cast<double>(x.count) >= columns ? static_cast<std::int64_t>(columns) : 0;
+}
+
+/// The part of a file that a shape needs, and the axes of the file in the period of the shape.
+struct Cut {
+  Axis x, y;
+  Window window;
+  std::int64_t around = 0; ///< columns in a period; 0: none
+  geometry::Box cells;     ///< where the file has cells, in the period of the shape
+};
+
+/// Chooses the period of the file that covers most of the shape.
+double best_shift(const Axis& x, const geometry::Box& box, double period) {
+  double best = 0, most = -1;
+  for (int k = -2; period > 0 && k <= 2; ++k) {
+    const double shift = k * period;
+    const double covered =
+        std::fmin(box.max.x, x.last() + x.step / 2 + shift) - std::fmax(box.min.x, x.first - x.step / 2 + shift);
+    if (k == -2 || covered > most) {
+      most = covered;
+      best = shift;
+    }
+  }
+  return best;
+}
+
+Cut cut_of(const RasterFile& file, const Outline& outline, double period) {
+  Cut cut{file.x(), file.y(), {}, columns_around(file.x(), period), {}};
+  geometry::Box box = outline.box;
+  cut.x.first += best_shift(cut.x, box, period);
+  cut.cells = cells_of(cut.x, cut.y);
+  if (outline.winds) {
+    const double middle = (box.min.x + box.max.x) / 2, y = (box.min.y + box.max.y) / 2;
+    box.min.x = middle - period / 2;
+    box.max.x = middle + period / 2;
+    (y > 0 ? box.max.y : box.min.y) = y > 0 ? cut.cells.max.y : cut.cells.min.y;
+  }
+  if (cut.around > 0) {
+    cut.cells.min.x = box.min.x - period;
+    cut.cells.max.x = box.max.x + period;
+  }
+  const auto range = [](const Axis& axis, double low, double high, bool bounded) {
+    auto first = static_cast<std::int64_t>(std::floor(std::clamp(axis.index(low), -1e9, 1e9))) - margin;
+    auto last = static_cast<std::int64_t>(std::ceil(std::clamp(axis.index(high), -1e9, 1e9))) + margin;
+    if (bounded) {
+      first = std::clamp<std::int64_t>(first, 0, axis.count - 1);
+      last = std::clamp<std::int64_t>(last, 0, axis.count - 1);
+    }
+    return std::pair(first, last - first + 1);
+  };
+  std::tie(cut.window.first_column, cut.window.columns) = range(cut.x, box.min.x, box.max.x, cut.around == 0);
+  std::tie(cut.window.first_row, cut.window.rows) = range(cut.y, box.min.y, box.max.y, true);
+  return cut;
+}
+
+/// Reads columns of a window that may go around the Earth.
+void read_around(RasterFile& file, const Window& window, std::int64_t around, std::vector<double>& out) {
+  out.resize(static_cast<std::size_t>(window.rows * window.columns));
+  if (around == 0) {
+    file.read(window, out.data());
+    return;
+  }
+  std::vector<double> part;
+  for (std::int64_t column = 0; column < window.columns;) {
+    const std::int64_t in_file = ((window.first_column + column) % around + around) % around;
+    const std::int64_t columns = std::min(window.columns - column, around - in_file);
+    part.resize(static_cast<std::size_t>(window.rows * columns));
+    file.read({in_file, columns, window.first_row, window.rows}, part.data());
+    for (std::int64_t row = 0; row < window.rows; ++row)
+      std::copy_n(part.begin() + row * columns, columns, out.begin() + row * window.columns + column);
+    column += columns;
+  }
+}
+
+Raster read_cut(RasterFile& file, const Cut& cut, const FieldRequest& request) {
+  const auto values = static_cast<double>(cut.window.columns) * static_cast<double>(cut.window.rows);
+  if (values > most_values)
+    throw GeometryError(fmt::format("{}: expected at most {:.0e} values around the shape, since each rank holds all of "
+                                    "them, found {} x {}; make a coarser raster: gdal_translate -outsize 25% 25%",
+                                    request.path, most_values, cut.window.columns, cut.window.rows));
+  Raster raster{{cut.x.at(static_cast<double>(cut.window.first_column)), cut.x.step, cut.window.columns},
+                {cut.y.at(static_cast<double>(cut.window.first_row)), cut.y.step, cut.window.rows}};
+  const bool fits =
+      file.fits_single() && (request.fill != Fill::value ||
+                             static_cast<double>(static_cast<float>(request.fill_value)) == request.fill_value);
+  fits ? raster.singles.reserve(raster.size()) : raster.doubles.reserve(raster.size());
+  const std::int64_t rows_at_once = std::max<std::int64_t>(1, band_values / cut.window.columns);
+  std::vector<double> band;
+  for (std::int64_t row = 0; row < cut.window.rows; row += rows_at_once) {
+    Window part = cut.window;
+    part.first_row += row;
+    part.rows = std::min(rows_at_once, cut.window.rows - row);
+    read_around(file, part, cut.around, band);
+    if (request.fill == Fill::value)
+      std::replace_if(
+          band.begin(), band.end(), [](double value) { return std::isnan(value); }, request.fill_value);
+    if (fits)
+      std::transform(band.begin(), band.end(), std::back_inserter(raster.singles),
+                     [](double value) { return static_cast<float>(value); });
+    else
+      raster.doubles.insert(raster.doubles.end(), band.begin(), band.end());
+  }
+  return raster;
+}
+
+/// A hash of places and values.
+std::uint64_t hash_of(const Raster& raster) {
+  std::uint64_t hash = 0;
+  const auto add = [&](double value) { hash = mix_bits(hash ^ std::bit_cast<std::uint64_t>(value)); };
+  for (const Axis* axis : {&raster.x, &raster.y}) {
+    add(axis->first);
+    add(axis->step);
+    add(static_cast<double>(axis->count));
+  }
+  for (std::size_t k = 0; k < raster.size(); ++k)
+    add(raster.value(k));
+  return hash;
+}
+
+/// What rank 0 knows, apart from the values.
+struct Head {
+  Axis x, y;
+  bool single = false, has_filled = false;
+  double middle = 0;
+  std::uint64_t hash = 0;
+};
+
+/// Rank 0 alone: reads, checks and fills.
+Raster read_on_root(const FieldRequest& request, const geometry::Boundary& boundary, const ToFile& to_file,
+                    Head& head) {
+  const std::unique_ptr<RasterFile> file = open_raster(request.path, request.variable, request.hint);
+  const Outline outline = outline_of(boundary, to_file, {file->x().step, file->y().step}, request.period);
+  const Cut cut = cut_of(*file, outline, request.period);
+  if (!request.outside_is_nearest)
+    check_cover(outline, cut.cells, request.path);
+  Raster raster = read_cut(*file, cut, request);
+  if (request.fill == Fill::refuse)
+    check_values(outline, raster, cut.window, *file, request.path);
+  fill_with_nearest(raster);
+  if (std::isnan(raster.value(0)))
+    throw GeometryError(fmt::format("{}: expected data around the shape, found none", request.path));
+  head = {raster.x,
+          raster.y,
+          !raster.singles.empty(),
+          !raster.filled.empty(),
+          (outline.box.min.x + outline.box.max.x) / 2,
+          hash_of(raster)};
+  return raster;
+}
+
+/// Sends a list from rank 0 in pieces. Collective.
+template <class T>
+void share(std::vector<T>& list, std::size_t size, const comm::Communicator& comm) {
+  constexpr std::size_t piece = (std::size_t{1} << 25) / sizeof(T);
+  list.resize(size);
+  for (std::size_t first = 0; comm.size() > 1 && first < size; first += piece) {
+    const std::span<T> part(list.data() + first, std::min(piece, size - first));
+    const auto bytes = std::as_bytes(part);
+    const std::vector<std::byte> sent =
+        comm.broadcast(comm.is_root() ? std::vector<std::byte>(bytes.begin(), bytes.end()) : std::vector<std::byte>());
+    if (!comm.is_root())
+      std::memcpy(part.data(), sent.data(), sent.size());
+  }
+}
+
+/// Returns the value of rank 0. Collective.
+template <class T>
+T of_root(const T& value, const comm::Communicator& comm) {
+  const auto bytes = std::as_bytes(std::span(&value, 1));
+  const std::vector<std::byte> sent = comm.broadcast(std::vector<std::byte>(bytes.begin(), bytes.end()));
+  T result;
+  std::memcpy(&result, sent.data(), sizeof result);
+  return result;
+}
+
+} // namespace
+
+geometry::Box raster_box(const FieldRequest& request, const comm::Communicator& comm) {
+  geometry::Box box;
+  comm::run_agreed(comm, [&] {
+    if (comm.is_root()) {
+      const std::unique_ptr<RasterFile> file = open_raster(request.path, request.variable, request.hint);
+      box = cells_of(file->x(), file->y());
+    }
+  });
+  return of_root(box, comm);
+}
+
+ReadField read_field(const FieldRequest& request, const geometry::Boundary& boundary, const ToFile& to_file,
+                     const comm::Communicator& comm) {
+  Raster raster;
+  Head head;
+  comm::run_agreed(comm, [&] {
+    if (comm.is_root())
+      raster = read_on_root(request, boundary, to_file, head);
+  });
+  head = of_root(head, comm);
+  raster.x = head.x;
+  raster.y = head.y;
+  const std::size_t size = raster.size();
+  head.single ? share(raster.singles, size, comm) : share(raster.doubles, size, comm);
+  if (head.has_filled)
+    share(raster.filled, (size + 7) / 8, comm);
+  return {std::make_unique<const Field>(std::move(raster), request.period, head.middle), head.hash};
+}
+
+} // namespace trime::fields

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads the part of a raster that a shape needs, checks that it covers the shape, and gives it to all ranks.
+#pragma once
+
+#include "fields/field.hpp"
+#include "trime/comm/communicator.hpp"
+#include "trime/geometry/boundary.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace trime::fields {
+
+/// What a place without data gets.
+enum class Fill { refuse, nearest, value };
+
+/// What is read, and what is done where the file has no data.
+struct FieldRequest {
+  std::string path, variable, hint; ///< see open_raster
+  Fill fill = Fill::refuse;
+  double fill_value = 0;
+  bool outside_is_nearest = false; ///< places outside of the raster get the nearest value; otherwise they are an error
+  double period = 0;               ///< period of x in the file: 360 if it is a longitude, otherwise 0
+};
+
+/// Converts a place of the mesh to the coordinates of the file. Thread-safe.
+using ToFile = std::function<geometry::Vec2(geometry::Vec2)>;
+
+/// A field with a hash of its values and places.
+struct ReadField {
+  std::unique_ptr<const Field> field;
+  std::uint64_t hash = 0;
+};
+
+/// Largest number of values that a field may have, because each rank holds all of them.
+inline constexpr double most_values = 4e8;
+
+/// @brief Returns the box of the raster's cells in the coordinates of the file. Only rank 0 reads. Collective.
+/// @throws FileError, GeometryError, ConfigError on all ranks
+geometry::Box raster_box(const FieldRequest& request, const comm::Communicator& comm);
+
+/// @brief Reads the values in and around the box of the shape on rank 0, band by band, and broadcasts them in pieces.
+/// Collective.
+/// @throws FileError, GeometryError, ConfigError on all ranks: for a damaged file, a shape that the raster does not
+/// cover, a needed place without data, and more than most_values values
+ReadField read_field(const FieldRequest& request, const geometry::Boundary& boundary, const ToFile& to_file,
+                     const comm::Communicator& comm);
+
+} // namespace trime::fields
