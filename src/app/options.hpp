@@ -65,7 +65,7 @@ struct FieldOptions {
   std::string name;
   std::string file;              ///< path, as PartOptions::file
   bool file_is_relative = false; ///< true if the user gave the path relative to the config file
-  std::string variable;          ///< of a NetCDF file; empty: its only one
+  std::string variable;          ///< name of the variable of a NetCDF file; empty: the only one
   std::string fill;              ///< `error`, `nearest`, or a number, which `fill_value` holds
   double fill_value = 0;
   bool outside_is_nearest = false;

@@ -40,6 +40,10 @@ constexpr double width_factor = 1.15;
 // The corner is searched among this number of chords on both sides.
 constexpr int longest_arms = 24;
 
+// [chords] The same where curves lie inside the shape: they may cross at a degree, and then their arms have this number
+// of shells, and some chords more.
+constexpr int longest_arms_with_curves = static_cast<int>(BoundaryRules::most_shells) + 6;
+
 constexpr int sites_in_a_row = 64; // by one thread
 
 /// Finds the limits of the chords [first, last).
@@ -119,7 +123,7 @@ private:
     double width = std::numeric_limits<double>::infinity();
     tree_.for_each_within(center, lens_radius * length, [&](const SiteTree::Entry& item) {
       const double height = geometry::dot(item.position - chord.a, inward);
-      if (height > 0 && !is_near(k, item.index))
+      if (height > 0 && !is_near(k, item.index) && !(has_curves_ && is_around_corner(k, item.index)))
         width = std::fmin(width, height);
     });
     return width;
@@ -159,7 +163,7 @@ private:
   bool is_around_corner(LocalIndex k, LocalIndex other) const {
     LocalIndex forward = k, backward = k;
     bool sharp_ahead = is_sharp(k), sharp_behind = sharp_ahead;
-    for (int hop = 0; hop <= longest_arms; ++hop) {
+    for (int hop = 0; hop <= longest_arms_; ++hop) {
       if ((is_at(forward, other) && (hop <= 2 || sharp_ahead)) ||
           (is_at(backward, other) && (hop <= 2 || sharp_behind)))
         return true;
@@ -194,7 +198,9 @@ private:
   const sizing::SizeField &size_, &asked_;
   const LocalIndex first_, last_;
   const std::vector<Vec2> images_; // shifts by periods, if curves lie inside
-  const double least_limit_ = boundary_.inner.empty() ? least_limit : least_limit_with_curves;
+  const bool has_curves_ = !boundary_.inner.empty();
+  const double least_limit_ = has_curves_ ? least_limit_with_curves : least_limit;
+  const int longest_arms_ = has_curves_ ? longest_arms_with_curves : longest_arms;
   const std::vector<double> site_sizes_; // of each of these chords, where it starts
   const SiteTree tree_;
   std::vector<char> sharp_; // for each site, whether its chords meet sharply

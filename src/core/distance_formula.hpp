@@ -32,7 +32,7 @@ bool is_word_of_formulas(const std::string& name);
 class DistanceFormula {
 public:
   /// @param lookup called once for each use of `dist`
-  /// @param fields variables of the formula; their names are no words of formulas
+  /// @param fields variables of the formula; their names are not words of formulas
   /// @throws ConfigError `where: ...` like a Formula, also if `lookup` throws one
   DistanceFormula(const std::string& text, const std::string& where, const DistanceLookup& lookup,
                   std::vector<FormulaField> fields = {});

@@ -194,30 +194,34 @@ std::string field_names(const mu::Parser& parser) {
   return text;
 }
 
+/// Says what is wrong with a token that the parser does not know.
+std::string complaint_about(const mu::Parser& parser, const std::string& token) {
+  if (!token.empty() && token.front() == '^') // as for the operators of muParser
+    return "the operator '^' is not allowed here";
+  if (!token.empty() && std::isalpha(static_cast<unsigned char>(token.front())) == 0)
+    return fmt::format("'{}' cannot stand here", token);
+  if (token.starts_with("dist"))
+    return fmt::format("unknown name '{}'; in the formula of a size, dist() is the distance to the boundary, and "
+                       "dist(NAME) that to a part of it",
+                       token);
+  if (token.starts_with("grad"))
+    return fmt::format("unknown name '{}'; in the formula of a size, grad(NAME) is the slope of the data of "
+                       "[field.NAME]",
+                       token);
+  const std::vector<std::string> names = known_names(parser);
+  const std::string near = token.size() > 1 ? suggestion(token, names) : ""; // every letter is near to x
+  return fmt::format("unknown name '{}'{}", token,
+                     near.empty() ? fmt::format("; known are x, y, {}pi, e and functions such as sqrt, sin, min, max",
+                                                field_names(parser))
+                                  : near);
+}
+
 /// Says what is wrong, without position and text.
 std::string complaint(const mu::Parser& parser, const mu::ParserError& error) {
   const std::string token = with_usual_power(error.GetToken());
   switch (error.GetCode()) {
-  case mu::ecUNASSIGNABLE_TOKEN: {
-    if (!token.empty() && token.front() == '^') // as for the operators of muParser
-      return "the operator '^' is not allowed here";
-    if (!token.empty() && std::isalpha(static_cast<unsigned char>(token.front())) == 0)
-      return fmt::format("'{}' cannot stand here", token);
-    if (token.starts_with("dist"))
-      return fmt::format("unknown name '{}'; in the formula of a size, dist() is the distance to the boundary, and "
-                         "dist(NAME) that to a part of it",
-                         token);
-    if (token.starts_with("grad"))
-      return fmt::format("unknown name '{}'; in the formula of a size, grad(NAME) is the slope of the data of "
-                         "[field.NAME]",
-                         token);
-    const std::vector<std::string> names = known_names(parser);
-    const std::string near = token.size() > 1 ? suggestion(token, names) : ""; // every letter is near to x
-    return fmt::format("unknown name '{}'{}", token,
-                       near.empty() ? fmt::format("; known are x, y, {}pi, e and functions such as sqrt, sin, min, max",
-                                                  field_names(parser))
-                                    : near);
-  }
+  case mu::ecUNASSIGNABLE_TOKEN:
+    return complaint_about(parser, token);
   case mu::ecUNEXPECTED_EOF:
     return "the expression ends too early";
   case mu::ecMISSING_PARENS:

@@ -9,7 +9,7 @@ namespace trime::fields {
 
 /// @brief The bilinear function of the values at the centres of the cells. Outside of all centres it has the value of
 /// the nearest place between them. Where a value was filled, only the others count, in proportion to their weights; the
-/// filled value counts if there is no other one. Thread-safe; a look-up takes about 10 ns if its values are in a cache.
+/// filled value counts if there is no other one. Thread-safe.
 class Field {
 public:
   /// @pre the raster has a value for each cell, none of them NaN

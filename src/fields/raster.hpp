@@ -29,7 +29,7 @@ struct Raster {
   Axis x, y;
   std::vector<float> singles{};
   std::vector<double> doubles{};
-  /// One bit for each value that was filled because the file has no number there; empty if there is none.
+  /// One bit for each value that was filled because the file has no number there; empty if no value was filled.
   std::vector<std::uint8_t> filled{};
 
   std::size_t index(std::int64_t column, std::int64_t row) const {
@@ -71,7 +71,7 @@ public:
 /// Values above this are marks for missing data that a file does not name: maxima of floating-point types.
 inline constexpr double largest_value = 1e30;
 
-/// @brief Opens an ESRI ASCII grid or a NetCDF-4 file, which the first bytes tell apart.
+/// @brief Opens an ESRI ASCII grid or a NetCDF-4 file, by its first bytes.
 /// @param variable name of the variable of a NetCDF file; empty: the only one that has two dimensions
 /// @param hint text that ends the message if the file cannot be opened
 /// @throws FileError, GeometryError or ConfigError with what can be done for files of other formats

@@ -113,7 +113,7 @@ std::unique_ptr<RasterFile> open_raster(const std::string& path, const std::stri
   if (bytes.starts_with("\x89HDF"))
     return std::make_unique<NetcdfRaster>(path, variable);
   if (!variable.empty() && !bytes.empty())
-    throw ConfigError(fmt::format("{}: 'variable' names a variable of a NetCDF file, but this file is none", path));
+    throw ConfigError(fmt::format("{}: 'variable' names a variable of a NetCDF file, but this file is not one", path));
   return std::make_unique<AsciiRaster>(contours::read_ascii_grid(read_file(path, hint), path));
 }
 

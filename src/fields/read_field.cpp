@@ -153,7 +153,7 @@ std::uint64_t hash_of(const Raster& raster) {
   return hash;
 }
 
-/// What rank 0 knows, apart from the values.
+/// Holds what rank 0 knows, apart from the values.
 struct Head {
   Axis x, y;
   bool single = false, has_filled = false;

@@ -17,6 +17,9 @@ using geometry::Vec2;
 
 constexpr int most_rounds = 20; // over all arcs; nodes may come near to others
 
+// [arcs] That go where two nodes become one: the edge between them, and one for each triangle at this edge that closes.
+constexpr std::size_t most_removed = 3;
+
 class NodeJoiner {
 public:
   NodeJoiner(geometry::InnerCurves& curves, const Nodes& nodes, const sizing::SizeField& size, VertexTree& tree)
@@ -35,7 +38,7 @@ public:
     for (int round = 0, before = -1; round < most_rounds && joined != before; ++round) {
       before = static_cast<int>(joined);
       for (std::size_t k = 0; k < arcs_.size(); ++k)
-        joined += is_short(k) && (joins(k, end(k), start(k)) || joins(k, start(k), end(k)));
+        joined += is_short(k) && (drops_end(k) || joins(k, end(k), start(k)) || joins(k, start(k), end(k)));
     }
     std::size_t left = 0;
     for (std::size_t k = 0; k < arcs_.size(); ++k)
@@ -67,7 +70,7 @@ private:
     return geometry::length(end(k) - start(k)) < GeneraliseRules::node_distance * sizing::checked_size(size_, start(k));
   }
 
-  Piece& last_piece(const Arm& arm) {
+  const Piece& last_piece(const Arm& arm) const {
     return arm.at_end ? arcs_[arm.arc].pieces.back() : arcs_[arm.arc].pieces.front();
   }
 
@@ -77,44 +80,111 @@ private:
     return node != nodes_.vertices.end() && node->second < nodes_.rim_vertices;
   }
 
-  /// Does an arc at the node lead to this vertex first?
-  bool has_edge(Vec2 node, Vec2 vertex) {
-    return std::ranges::any_of(arms_.at(key(node)), [&](const Arm& arm) {
-      const Piece& piece = last_piece(arm);
-      return (arm.at_end ? piece.start : piece.end) == vertex;
-    });
+  Vec2 vertex_after(const Arm& arm) const {
+    const InnerArc& arc = arcs_[arm.arc];
+    return arm.at_end ? arc.pieces.back().start : arc.pieces.front().end;
+  }
+
+  /// The arm at the node that leads to this vertex first; nullptr if no arm does.
+  const Arm* arm_to(Vec2 node, Vec2 vertex) const {
+    const std::vector<Arm>& arms = arms_.at(key(node));
+    const auto found = std::ranges::find_if(arms, [&](const Arm& arm) { return vertex_after(arm) == vertex; });
+    return found == arms.end() ? nullptr : &*found;
+  }
+
+  bool must_stay(Vec2 p) const {
+    return is_on_rim(p) ||
+           std::binary_search(nodes_.kept.begin(), nodes_.kept.end(), p, geometry::lexicographically_less);
+  }
+
+  /// Takes an arc out of the lists of its ends.
+  void remove(std::size_t arc) {
+    for (const Vec2 p : {start(arc), end(arc)})
+      std::erase_if(arms_.at(key(p)), [arc](const Arm& arm) { return arm.arc == arc; });
+    --arcs_of_[curve(arc)];
+    is_gone_[arc] = 1;
+  }
+
+  /// Removes an edge of a curve that ends shortly behind a node where it meets others.
+  bool drops_end(std::size_t edge) {
+    if (arcs_[edge].left != arcs_[edge].right)
+      return false;
+    for (const auto& [free, node] : {std::pair(start(edge), end(edge)), std::pair(end(edge), start(edge))})
+      if (arms_.at(key(free)).size() == 1 && !must_stay(free) && (arms_.at(key(node)).size() > 2 || is_on_rim(node))) {
+        tree_.remove(nodes_.vertices.at(key(free)));
+        remove(edge);
+        return true;
+      }
+    return false;
+  }
+
+  /// May the arm at `from` move to `to`?
+  bool may_move(const Arm& arm, Vec2 from, Vec2 to) const {
+    const Vec2 next = vertex_after(arm);
+    const Vec2 far = arm.at_end ? start(arm.arc) : end(arm.arc);
+    if (last_piece(arm).circular || far == from || far == to || next == to || (is_on_rim(to) && is_on_rim(next)) ||
+        !tree_.is_empty_at({from, to, next}))
+      return false;
+    const Arm* beside = arm_to(to, next);
+    return beside == nullptr || merges(arm, *beside);
+  }
+
+  /// Are both arms single edges, so that they become one? A curve keeps at least one edge.
+  bool merges(const Arm& arm, const Arm& beside) const {
+    const InnerArc &goes = arcs_[arm.arc], &stays = arcs_[beside.arc];
+    return goes.pieces.size() == 1 && stays.pieces.size() == 1 && !stays.pieces[0].circular &&
+           (curve(arm.arc) < 0 || curve(arm.arc) == curve(beside.arc) || curve(beside.arc) < 0 ||
+            arcs_of_.at(curve(arm.arc)) > most_removed);
   }
 
   /// Moves all arcs at `from` to `to` if they may move. @param edge the arc between the two
   bool joins(std::size_t edge, Vec2 from, Vec2 to) {
-    std::vector<Arm>& arms = arms_.at(key(from));
-    const LocalIndex vertex = nodes_.vertices.at(key(from));
+    const std::vector<Arm> arms = arms_.at(key(from));
     const bool is_free_end = arms_.at(key(to)).size() < 2 && !is_on_rim(to);
-    if (is_free_end || arms.size() < 3 || is_on_rim(from) ||
-        std::binary_search(nodes_.kept.begin(), nodes_.kept.end(), from, geometry::lexicographically_less))
+    if (is_free_end || arms.size() < 3 || must_stay(from) ||
+        !std::ranges::all_of(arms, [&](const Arm& arm) { return arm.arc == edge || may_move(arm, from, to); }))
       return false;
-    for (const Arm& arm : arms) {
-      if (arm.arc == edge)
-        continue;
-      const Piece& piece = last_piece(arm);
-      const Vec2 next = arm.at_end ? piece.start : piece.end;
-      if (piece.circular || start(arm.arc) == end(arm.arc) || (arm.at_end ? start(arm.arc) : end(arm.arc)) == to ||
-          next == to || has_edge(to, next) || (is_on_rim(to) && is_on_rim(next)) ||
-          !tree_.is_empty_at({from, to, next}))
-        return false;
-    }
+    tree_.remove(nodes_.vertices.at(key(from)));
+    remove(edge);
     for (const Arm& arm : arms)
-      if (arm.arc != edge) {
-        note_loss(arm, from, to);
-        (arm.at_end ? last_piece(arm).end : last_piece(arm).start) = to;
-        arms_.at(key(to)).push_back(arm);
-      }
-    arms.clear();
-    std::erase_if(arms_.at(key(to)), [edge](const Arm& arm) { return arm.arc == edge; });
-    tree_.remove(vertex);
-    --arcs_of_[curve(edge)];
-    is_gone_[edge] = 1;
+      if (arm.arc != edge)
+        move(arm, from, to);
     return true;
+  }
+
+  void move(const Arm& arm, Vec2 from, Vec2 to) {
+    note_loss(arm, from, to);
+    const Arm* found = arm_to(to, vertex_after(arm));
+    if (found != nullptr) {
+      const Arm beside = *found;
+      merge(arm, beside);
+      return;
+    }
+    std::erase_if(arms_.at(key(from)), [&](const Arm& other) { return other.arc == arm.arc; });
+    (arm.at_end ? arcs_[arm.arc].pieces.back().end : arcs_[arm.arc].pieces.front().start) = to;
+    arms_.at(key(to)).push_back(arm);
+  }
+
+  /// Makes one edge of two that have the same ends now: the face between them is gone. It lies on that side of the arc
+  /// that stays on which both have the same region.
+  void merge(const Arm& arm, const Arm& beside) {
+    const InnerArc& goes = arcs_[arm.arc];
+    InnerArc& stays = arcs_[beside.arc];
+    const bool same_way = arm.at_end == beside.at_end;
+    const Vec2 a = stays.pieces[0].start, b = stays.pieces[0].end;
+    const Vec2 other = arm.at_end ? goes.pieces[0].end : goes.pieces[0].start; // where the arm begins
+    if (cross(b - a, other - a) > 0)
+      stays.left = same_way ? goes.left : goes.right;
+    else
+      stays.right = same_way ? goes.right : goes.left;
+    if (curve(beside.arc) < 0 && curve(arm.arc) >= 0) {
+      --arcs_of_[curve(beside.arc)];
+      stays.pieces[0].part = curve(arm.arc);
+      ++arcs_of_[curve(beside.arc)];
+    }
+    remove(arm.arc);
+    if (stays.left == stays.right && curve(beside.arc) < 0)
+      remove(beside.arc);
   }
 
   /// Notes which region the last piece of an arm takes from when it turns to another node.
@@ -141,7 +211,7 @@ private:
 
 void join_close_nodes(geometry::InnerCurves& curves, const Nodes& nodes, const sizing::SizeField& size,
                       VertexTree& tree) {
-  curves.joined_nodes = NodeJoiner(curves, nodes, size, tree).run();
+  curves.joined_nodes += NodeJoiner(curves, nodes, size, tree).run();
 }
 
 } // namespace trime::generalise

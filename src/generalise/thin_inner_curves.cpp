@@ -3,6 +3,7 @@
 
 #include "generalise/close_nodes.hpp"
 #include "generalise/cut_wedges.hpp"
+#include "generalise/free_ends.hpp"
 #include "generalise/rules.hpp"
 #include "generalise/smooth_arcs.hpp"
 #include "generalise/vertex_tree.hpp"
@@ -218,7 +219,7 @@ geometry::InnerCurves thin_arcs(const geometry::InnerCurves& curves, const geome
       ends.rim_vertices = std::max(ends.rim_vertices, vertex + 1);
   const std::span<const std::vector<LocalIndex>> of_arcs = std::span(vertices).subspan(boundary.loops.size());
   const ArcEnds arc_ends(curves.arcs, of_arcs, ends.rim_vertices);
-  geometry::InnerCurves thinned{{}, curves.names, {}, {}, 0, curves.kinds};
+  geometry::InnerCurves thinned{{}, curves.names, {}, {}, curves.joined_nodes, curves.kinds};
   for (std::size_t k = 0; k < curves.arcs.size(); ++k)
     thinned.arcs.push_back(
         ArcThinner(curves.arcs[k], of_arcs[k], arc_ends.must_bend(of_arcs[k]), {size, tree, corners}).run());
@@ -234,8 +235,9 @@ geometry::InnerCurves thin_inner_curves(const geometry::InnerCurves& curves, con
                                         const sizing::SizeField& size, const geometry::Lattice& lattice,
                                         std::span<const Vec2> corners) {
   const FlowRequest request{size, boundary.bounding_box(), GeneraliseRules::flow_reach, corners};
-  const geometry::InnerCurves smooth{smooth_arcs(curves.arcs, boundary, request, lattice), curves.names};
+  geometry::InnerCurves smooth{smooth_arcs(curves.arcs, boundary, request, lattice), curves.names};
   const ArcRequest all{size, lattice, corners};
+  draw_back_ends(smooth, boundary, all);
   geometry::InnerCurves thinned = thin_arcs(smooth, boundary, all, curves.arcs);
   cut_wedges(thinned, geometry::narrow_wedges(curves.arcs, boundary), boundary, all);
   geometry::set_wedges(thinned.arcs, boundary);

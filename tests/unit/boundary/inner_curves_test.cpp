@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Curves inside a shape: from lines to arcs, from arcs to chords, and what the guard does with the chords.
 #include "core/random.hpp"
+#include "generalise/rules.hpp"
 #include "generalise/thin_inner_curves.hpp"
 #include "geometry/predicates.hpp"
 #include "polygon/both_sides.hpp"
@@ -89,6 +90,46 @@ TEST(InnerCurves, CloseNodesStayWhereAPointIsFixed) {
   EXPECT_EQ(generalise::thin_inner_curves(domain.curves(), domain.boundary(), UniformSize(0.1), unit_lattice(), fixed)
                 .joined_nodes,
             0);
+}
+
+InnerCurves simplified(const geometry::Domain& domain, double h) {
+  return generalise::thin_inner_curves(domain.curves(), domain.boundary(), UniformSize(h), unit_lattice(), {});
+}
+
+TEST(InnerCurves, SmallTrianglesBetweenThreeLinesClose) {
+  const geometry::Domain domain =
+      square_with({{{0.1, 0.5}, {0.9, 0.5}}, {{0.3, 0.2}, {0.702, 0.8}}, {{0.7, 0.2}, {0.31, 0.8}}});
+  ASSERT_EQ(domain.curves().arcs.size(), 9U);
+  const InnerCurves joined = simplified(domain, 0.1);
+  ASSERT_EQ(joined.arcs.size(), 6U);
+  EXPECT_EQ(joined.joined_nodes, 2);
+  Vec2 low{1, 1}, high{0, 0}; // of the ends in the middle
+  for (const InnerArc& arc : joined.arcs)
+    for (const Vec2 p : {arc.pieces.front().start, arc.pieces.back().end})
+      if (geometry::length(p - Vec2{0.5, 0.5}) < 0.1) {
+        low = {std::fmin(low.x, p.x), std::fmin(low.y, p.y)};
+        high = {std::fmax(high.x, p.x), std::fmax(high.y, p.y)};
+      }
+  EXPECT_EQ(low, high);
+  EXPECT_EQ(simplified(domain, 0.001).arcs.size(), 9U);
+}
+
+TEST(InnerCurves, EndsShortlyBehindACrossingGo) {
+  const geometry::Domain domain = square_with({{{0.1, 0.5}, {0.9, 0.5}}, {{0.5, 0.2}, {0.5, 0.504}}});
+  EXPECT_EQ(simplified(domain, 0.1).arcs.size(), 3U);
+  EXPECT_EQ(simplified(domain, 0.01).arcs.size(), 4U);
+}
+
+TEST(InnerCurves, EndsShortlyBeforeAnotherCurveAreDrawnBack) {
+  constexpr double h = 0.1;
+  const geometry::Domain domain = square_with({{{0.1, 0.5}, {0.9, 0.5}}, {{0.5, 0.1}, {0.5, 0.496}}});
+  const InnerCurves apart = simplified(domain, h);
+  EXPECT_EQ(apart.joined_nodes, 1);
+  ASSERT_EQ(apart.arcs.size(), 2U);
+  const double gap = 0.5 - apart.arcs[1].pieces.back().end.y;
+  EXPECT_GE(gap, generalise::GeneraliseRules::end_clearance * h - 1e-9);
+  EXPECT_LE(gap, 0.5 * h);
+  EXPECT_EQ(simplified(domain, 0.01).joined_nodes, 0);
 }
 
 TEST(InnerCurves, AreCutAtCrossings) {
