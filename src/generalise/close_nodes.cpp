@@ -85,6 +85,8 @@ private:
     return arm.at_end ? arc.pieces.back().start : arc.pieces.front().end;
   }
 
+  Vec2 far_end(const Arm& arm) const { return arm.at_end ? start(arm.arc) : end(arm.arc); }
+
   /// The arm at the node that leads to this vertex first; nullptr if no arm does.
   const Arm* arm_to(Vec2 node, Vec2 vertex) const {
     const std::vector<Arm>& arms = arms_.at(key(node));
@@ -118,15 +120,16 @@ private:
     return false;
   }
 
-  /// May the arm at `from` move to `to`?
+  /// May the arm at `from` move to `to`? Two arcs with the same ends could become one straight line.
   bool may_move(const Arm& arm, Vec2 from, Vec2 to) const {
     const Vec2 next = vertex_after(arm);
-    const Vec2 far = arm.at_end ? start(arm.arc) : end(arm.arc);
+    const Vec2 far = far_end(arm);
     if (last_piece(arm).circular || far == from || far == to || next == to || (is_on_rim(to) && is_on_rim(next)) ||
         !tree_.is_empty_at({from, to, next}))
       return false;
-    const Arm* beside = arm_to(to, next);
-    return beside == nullptr || merges(arm, *beside);
+    if (const Arm* beside = arm_to(to, next); beside != nullptr)
+      return merges(arm, *beside);
+    return std::ranges::none_of(arms_.at(key(to)), [&](const Arm& other) { return far_end(other) == far; });
   }
 
   /// Are both arms single edges, so that they become one? A curve keeps at least one edge.

@@ -246,7 +246,7 @@ void Run::report_boundary() {
   if (const std::int64_t joined = stage_.polygon.inner.joined_nodes; joined > 0)
     run_.log.summary(
         "{} node{} of curves or interfaces {} joined with another one, or moved away from another curve, since the "
-        "distance is below 0.25 h; keep_features = true keeps all",
+        "distance is below 0.1 h; keep_features = true keeps all",
         joined, joined == 1 ? "" : "s", joined == 1 ? "is" : "are");
   comm::run_agreed(run_.comm, [this] {
     fitting::warn_of_fine_features(stage_, run_.options.min_size.has_value(), run_.log);

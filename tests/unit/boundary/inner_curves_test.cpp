@@ -128,7 +128,7 @@ TEST(InnerCurves, EndsShortlyBeforeAnotherCurveAreDrawnBack) {
   ASSERT_EQ(apart.arcs.size(), 2U);
   const double gap = 0.5 - apart.arcs[1].pieces.back().end.y;
   EXPECT_GE(gap, generalise::GeneraliseRules::end_clearance * h - 1e-9);
-  EXPECT_LE(gap, 0.5 * h);
+  EXPECT_LE(gap, 0.4 * h);
   EXPECT_EQ(simplified(domain, 0.01).joined_nodes, 0);
 }
 
