@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/field_builder.hpp"
 
+#include "comm/agree.hpp"
 #include "core/angle.hpp"
 #include "core/elementary.hpp"
 #include "projection/projection.hpp"
 #include "projection/shared_transform.hpp"
 #include "trime/core/error.hpp"
 
+#include <array>
 #include <cmath>
 
 namespace trime::app {
@@ -47,9 +49,25 @@ double slope(const BuiltField& field, Vec2 place) {
   const Vec2 p = field.to_file(place), gradient = field.field->gradient(p);
   if (!field.in_metres)
     return std::sqrt(gradient.x * gradient.x + gradient.y * gradient.y);
-  const double along = gradient.x / (metres_per_degree * elementary::cos(p.y * pi / 180));
+  const fields::Axis& rows = field.field->raster().y;
+  const double latitude = std::fmin(std::fmax(p.y, rows.first), rows.last()); // not at a pole, where the cosine is 0
+  const double along = gradient.x / (metres_per_degree * elementary::cos(latitude * pi / 180));
   const double up = gradient.y / metres_per_degree;
   return std::sqrt(along * along + up * up);
+}
+
+/// The sides of a container as a boundary: a size may be needed everywhere in a periodic container.
+geometry::Boundary sides_of(const geometry::Box& container) {
+  const Vec2 low = container.min, high = container.max;
+  const std::array<Vec2, 4> corners{low, {high.x, low.y}, high, {low.x, high.y}};
+  geometry::Boundary sides;
+  geometry::Loop& loop = sides.loops.emplace_back();
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    geometry::Piece& side = loop.pieces.emplace_back();
+    side.start = corners[k];
+    side.end = corners[(k + 1) % corners.size()];
+  }
+  return sides;
 }
 
 } // namespace
@@ -58,16 +76,19 @@ std::vector<BuiltField> read_fields(const RunOptions& options, const ShapeInput&
                                     const comm::Communicator& comm) {
   std::vector<BuiltField> built;
   const bool is_projected = !options.projection.empty() && !input.map.crs.empty();
+  const geometry::Frame& frame = input.domain().frame();
+  const geometry::Boundary where = frame.periods().any() ? sides_of(frame.container()) : input.boundary();
+  std::shared_ptr<const projection::DegreesOfPlane> degrees; // all fields ask it for the same places
   for (const FieldOptions& one : options.sizing.fields) {
     fields::FieldRequest request = request_of(one);
     const bool in_degrees = is_in_degrees(one, is_projected, request, comm);
     BuiltField field{one.name, nullptr, [](Vec2 p) { return p; }, in_degrees && is_projected};
     request.period = in_degrees ? 360 : 0;
+    if (field.in_metres && !degrees)
+      comm::run_agreed(comm, [&] { degrees = std::make_shared<const projection::DegreesOfPlane>(input.map.crs); });
     if (field.in_metres)
-      field.to_file = [degrees = std::make_shared<const projection::DegreesOfPlane>(input.map.crs)](Vec2 p) {
-        return degrees->at(p);
-      };
-    fields::ReadField read = fields::read_field(request, input.boundary(), field.to_file, comm);
+      field.to_file = [degrees](Vec2 p) { return degrees->at(p); };
+    fields::ReadField read = fields::read_field(request, where, field.to_file, comm);
     field.field = std::move(read.field);
     field.hash = read.hash;
     built.push_back(std::move(field));

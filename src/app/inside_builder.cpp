@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -80,12 +81,29 @@ void tell_of_file(const contours::Contour& contour, Log& log) {
     log.warning("{}", warning);
 }
 
+/// Warns of features without the attribute that names regions or curves: they share one name. An integer of 0 counts as
+/// no value.
+void tell_of_missing_values(const contours::Contour& contour, const std::string& attribute, const std::string& name,
+                            Log& log) {
+  if (attribute.empty())
+    return;
+  std::set<int> features; // by number, or by line
+  for (const contours::ContourRing& ring : contour.rings)
+    if ((ring.markers.empty() || ring.markers.front() == 0) && !ring.lines.empty())
+      features.insert(ring.lines.front());
+  if (!features.empty())
+    log.warning("{}: {} feature{} no value of the attribute '{}', or the value 0, and {} '{}'; the first one is {}",
+                contour.source, features.size(), features.size() == 1 ? " has" : "s have", attribute,
+                features.size() == 1 ? "belongs to" : "belong to", name, contours::where(contour, *features.begin()));
+}
+
 } // namespace
 
 void InsideBuilder::add_curve(const CurveOptions& curve, const contours::Contour& contour,
                               const contours::Normalization& place) {
   add_lines(curve, contour, place, frame_, parts);
   tell_of_file(contour, log_);
+  tell_of_missing_values(contour, curve.attribute, curve.name, log_);
 }
 
 void InsideBuilder::add_region(const RegionOptions& region, const contours::Contour& contour,
@@ -96,6 +114,7 @@ void InsideBuilder::add_region(const RegionOptions& region, const contours::Cont
     return;
   }
   tell_of_file(contour, log_);
+  tell_of_missing_values(contour, region.attribute, region.name, log_);
   add_area_limits(region, contour, place.scale);
   const bool share_borders = contour.is_map || (!contour.marker_names.empty() && !contour.is_raster);
   for (const auto& [name, polygons] : divided(region.name, contour)) {

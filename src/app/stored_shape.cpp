@@ -2,6 +2,7 @@
 #include "app/stored_shape.hpp"
 
 #include "app/config.hpp"
+#include "app/field_builder.hpp"
 #include "app/size_builder.hpp"
 #include "app/user_places.hpp"
 #include "meshing/meshed_curves.hpp"
@@ -46,7 +47,8 @@ bool is_simplified(const io::Metadata& metadata) {
 /// Returns the curves of the run. Collective.
 geometry::Boundary simplified_curves(const RunOptions& options, ShapeInput& input, const comm::Communicator& comm) {
   input.set_fixed_points(read_fixed_points(options, input, comm));
-  const BuiltSize size = build_size(options, input.domain(), comm, input.bounds);
+  const std::vector<BuiltField> fields = read_fields(options, input, comm);
+  const BuiltSize size = build_size(options, input.domain(), comm, input.bounds, fields);
   return meshing::meshed_curves(comm, input.domain(), *size.field, placed_options(options, input, comm));
 }
 

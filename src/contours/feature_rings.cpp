@@ -128,6 +128,8 @@ void FeatureRings::finish(const char* expected, Faults faults) {
   builder_.finish();
   resolve_markers();
   tell_skipped();
+  if (use_ == Use::curves)
+    expected = "a map with lines or polygons";
   if (contour_.rings.empty() && contour_.faults.empty() && skipped_ > 0)
     throw GeometryError(
         fmt::format("{}: expected {}, found only geometries of type {} or the like; export the polygons "
@@ -199,10 +201,11 @@ void FeatureRings::resolve_markers() {
 
 void FeatureRings::tell_skipped() {
   if (skipped_ > 0)
-    contour_.warnings.push_back(
-        fmt::format("{}: {} geometr{} of type {} or the like left out: only polygons and lines that close rings "
-                    "bound a shape",
-                    place_of_line(contour_, skipped_line_), skipped_, skipped_ == 1 ? "y" : "ies", skipped_type_));
+    contour_.warnings.push_back(fmt::format("{}: {} geometr{} of type {} or the like left out: only {}",
+                                            place_of_line(contour_, skipped_line_), skipped_,
+                                            skipped_ == 1 ? "y" : "ies", skipped_type_,
+                                            use_ == Use::curves ? "lines and the borders of polygons are curves"
+                                                                : "polygons and lines that close rings bound a shape"));
 }
 
 } // namespace trime::contours

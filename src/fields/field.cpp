@@ -85,8 +85,13 @@ geometry::Vec2 Field::gradient(geometry::Vec2 p) const {
     p.x += period_ * std::rint((middle_ - p.x) / period_);
   const Corners corners = corners_of(raster_, p);
   const std::array<double, 4>& z = corners.values;
-  return {((1 - corners.v) * (z[1] - z[0]) + corners.v * (z[3] - z[2])) / raster_.x.step,
-          ((1 - corners.u) * (z[2] - z[0]) + corners.u * (z[3] - z[1])) / raster_.y.step};
+  const auto is_between = [](const Axis& axis, double at) {
+    return axis.index(at) >= 0 && axis.index(at) <= static_cast<double>(axis.count - 1);
+  };
+  const double along = (1 - corners.v) * (z[1] - z[0]) + corners.v * (z[3] - z[2]);
+  const double up = (1 - corners.u) * (z[2] - z[0]) + corners.u * (z[3] - z[1]);
+  return {is_between(raster_.x, p.x) ? along / raster_.x.step : 0,
+          is_between(raster_.y, p.y) ? up / raster_.y.step : 0};
 }
 
 } // namespace trime::fields

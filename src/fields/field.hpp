@@ -19,6 +19,7 @@ public:
   /// Returns the value at a place in the coordinates of the raster.
   double value(geometry::Vec2 p) const;
   /// Returns the gradient of the bilinear function, per unit of the coordinates of the raster; filled values count.
+  /// Across an axis it is 0 outside of all centres.
   geometry::Vec2 gradient(geometry::Vec2 p) const;
   const Raster& raster() const { return raster_; }
 

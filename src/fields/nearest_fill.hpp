@@ -7,7 +7,7 @@
 namespace trime::fields {
 
 /// @brief Gives each NaN the value of the nearest centre that has one, and marks it in `filled`. Of several nearest
-/// centres the first one counts, from the south and then from the west. Does nothing if no value or no other value is
+/// centres one in the westernmost column counts. Does nothing if no value or no other value is
 /// NaN.
 /// Cost: O(values), and 4 bytes for each value while it works. The distance is Euclidean, in the coordinates of the
 /// raster (P. Felzenszwalb, D. Huttenlocher, "Distance transforms of sampled functions", 2012, with places).

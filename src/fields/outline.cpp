@@ -26,13 +26,18 @@ public:
   /// Appends the places of a piece after its start.
   void walk(const geometry::Piece& piece) {
     const double length = piece.length();
-    const int parts = piece.circular ? first_pieces_of_arc : 1;
+    const int parts = piece.circular || period_ > 0 ? first_pieces_of_arc : 1; // an edge may be as long as a period
     for (int k = 0; k < parts; ++k)
       walk(piece, length * k / parts, length * (k + 1) / parts, most_halvings);
   }
   void append(Vec2 place) {
+    const Vec2 in_file = to_file_(place);
+    if (std::isnan(in_file.x) || std::isnan(in_file.y))
+      throw GeometryError(fmt::format("the place {} of the shape has no longitude and latitude in its projection, so "
+                                      "no data can be found there; make the shape smaller, or use another projection",
+                                      Place(place, 9)));
     in_plane_.push_back(place);
-    chain_.push_back(near(to_file_(place)));
+    chain_.push_back(near(in_file));
   }
 
 private:
@@ -146,6 +151,15 @@ std::vector<std::vector<double>> crossings(const Outline& outline, const Axis& y
   return found;
 }
 
+/// Returns the outline with loops around the Earth closed beyond the row next to the pole in the shape.
+Outline closed_at_pole(Outline outline, const Axis& y) {
+  const double pole = outline.box.min.y + outline.box.max.y > 0 ? y.last() + y.step : y.first - y.step;
+  for (std::vector<Vec2>& ring : outline.loops)
+    if (outline.winds && std::fabs(ring.back().x - ring.front().x) > 0.5 * outline.box.width())
+      ring.insert(ring.end(), {{ring.back().x, pole}, {ring.front().x, pole}});
+  return outline;
+}
+
 } // namespace
 
 Outline outline_of(const geometry::Boundary& boundary, const ToFile& to_file, Vec2 cell, double period) {
@@ -178,9 +192,10 @@ void check_cover(const Outline& outline, const geometry::Box& cells, const std::
         continue;
       throw GeometryError(fmt::format(
           "{}: expected a raster that covers the shape, found x from {:.9g} to {:.9g} and y from {:.9g} to {:.9g}; the "
-          "place ({:.9g}, {:.9g}) of the shape and {:.3g} % of its area lie outside. Use a larger raster, or set "
-          "'outside = nearest'",
-          path, cells.min.x, cells.max.x, cells.min.y, cells.max.y, p.x, p.y, 100 * share_outside(outline, cells)));
+          "place {} of the shape, which is ({:.9g}, {:.9g}) there, and {:.3g} % of its area lie outside. Use a larger "
+          "raster, or set 'outside = nearest'",
+          path, cells.min.x, cells.max.x, cells.min.y, cells.max.y, Place(outline.in_plane[loop][k], 9), p.x, p.y,
+          100 * share_outside(outline, cells)));
     }
 }
 
@@ -190,8 +205,8 @@ void check_values(const Outline& outline, const Raster& raster, const Window& wi
   for (const std::vector<Vec2>& ring : outline.loops)
     for (const Vec2 p : ring)
       missing.need(p);
-  if (!outline.winds && raster.x.count > 1) {
-    const std::vector<std::vector<double>> rows = crossings(outline, raster.y);
+  if (raster.x.count > 1) {
+    const std::vector<std::vector<double>> rows = crossings(closed_at_pole(outline, raster.y), raster.y);
     for (std::size_t row = 0; row < rows.size(); ++row)
       for (std::size_t k = 0; k + 1 < rows[row].size(); k += 2) {
         const double first = std::fmax(0, std::ceil(raster.x.index(rows[row][k]) - 0.5));

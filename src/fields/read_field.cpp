@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstring>
 #include <iterator>
+#include <limits>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -165,6 +166,11 @@ struct Head {
 Raster read_on_root(const FieldRequest& request, const geometry::Boundary& boundary, const ToFile& to_file,
                     Head& head) {
   const std::unique_ptr<RasterFile> file = open_raster(request.path, request.variable, request.hint);
+  if (request.period == 0 && !request.outside_is_nearest) { // before places are listed at steps of half a cell
+    constexpr double any = std::numeric_limits<double>::infinity();
+    const Outline ends = outline_of(boundary, to_file, {any, any}, 0);
+    check_cover(ends, cut_of(*file, ends, 0).cells, request.path);
+  }
   const Outline outline = outline_of(boundary, to_file, {file->x().step, file->y().step}, request.period);
   const Cut cut = cut_of(*file, outline, request.period);
   if (!request.outside_is_nearest)
@@ -188,7 +194,7 @@ Raster read_on_root(const FieldRequest& request, const geometry::Boundary& bound
 template <class T>
 void share(std::vector<T>& list, std::size_t size, const comm::Communicator& comm) {
   constexpr std::size_t piece = (std::size_t{1} << 25) / sizeof(T);
-  list.resize(size);
+  comm::run_agreed(comm, [&] { list.resize(size); }); // the memory may not suffice
   for (std::size_t first = 0; comm.size() > 1 && first < size; first += piece) {
     const std::span<T> part(list.data() + first, std::min(piece, size - first));
     const auto bytes = std::as_bytes(part);

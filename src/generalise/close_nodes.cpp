@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
+#include <set>
+#include <utility>
 #include <vector>
 
 namespace trime::generalise {
@@ -17,15 +20,14 @@ using geometry::Vec2;
 
 constexpr int most_rounds = 20; // over all arcs; nodes may come near to others
 
-// [arcs] That go where two nodes become one: the edge between them, and one for each triangle at this edge that closes.
-constexpr std::size_t most_removed = 3;
-
 class NodeJoiner {
 public:
   NodeJoiner(geometry::InnerCurves& curves, const Nodes& nodes, const sizing::SizeField& size, VertexTree& tree)
       : curves_(curves), arcs_(curves.arcs), nodes_(nodes), size_(size), tree_(tree), is_gone_(curves.arcs.size(), 0) {
-    for (std::size_t k = 0; k < arcs_.size(); ++k)
+    for (std::size_t k = 0; k < arcs_.size(); ++k) {
       ++arcs_of_[curve(k)];
+      pairs_.insert(std::minmax(arcs_[k].left, arcs_[k].right));
+    }
     for (std::size_t k = 0; k < arcs_.size(); ++k)
       if (!arcs_[k].closed) {
         arms_[key(start(k))].push_back({k, false});
@@ -38,7 +40,7 @@ public:
     for (int round = 0, before = -1; round < most_rounds && joined != before; ++round) {
       before = static_cast<int>(joined);
       for (std::size_t k = 0; k < arcs_.size(); ++k)
-        joined += is_short(k) && (drops_end(k) || joins(k, end(k), start(k)) || joins(k, start(k), end(k)));
+        joined += is_short(k) && (joins(k, end(k), start(k)) || joins(k, start(k), end(k)));
     }
     std::size_t left = 0;
     for (std::size_t k = 0; k < arcs_.size(); ++k)
@@ -107,19 +109,6 @@ private:
     is_gone_[arc] = 1;
   }
 
-  /// Removes an edge of a curve that ends shortly behind a node where it meets others.
-  bool drops_end(std::size_t edge) {
-    if (arcs_[edge].left != arcs_[edge].right)
-      return false;
-    for (const auto& [free, node] : {std::pair(start(edge), end(edge)), std::pair(end(edge), start(edge))})
-      if (arms_.at(key(free)).size() == 1 && !must_stay(free) && (arms_.at(key(node)).size() > 2 || is_on_rim(node))) {
-        tree_.remove(nodes_.vertices.at(key(free)));
-        remove(edge);
-        return true;
-      }
-    return false;
-  }
-
   /// May the arm at `from` move to `to`? Two arcs with the same ends could become one straight line.
   bool may_move(const Arm& arm, Vec2 from, Vec2 to) const {
     const Vec2 next = vertex_after(arm);
@@ -132,12 +121,34 @@ private:
     return std::ranges::none_of(arms_.at(key(to)), [&](const Arm& other) { return far_end(other) == far; });
   }
 
-  /// Are both arms single edges, so that they become one? A curve keeps at least one edge.
+  /// May both arms become one edge? They must be edges, and the regions beyond them must be neighbours already.
   bool merges(const Arm& arm, const Arm& beside) const {
     const InnerArc &goes = arcs_[arm.arc], &stays = arcs_[beside.arc];
+    const auto [left, right] = sides_of_both(arm, beside);
     return goes.pieces.size() == 1 && stays.pieces.size() == 1 && !stays.pieces[0].circular &&
-           (curve(arm.arc) < 0 || curve(arm.arc) == curve(beside.arc) || curve(beside.arc) < 0 ||
-            arcs_of_.at(curve(arm.arc)) > most_removed);
+           (left == right || pairs_.contains(std::minmax(left, right)));
+  }
+
+  /// Returns the regions on both sides of an arc when it takes the place of another one too. The face between the two
+  /// lies on that side of the arc that stays on which both have the same region.
+  std::pair<int, int> sides_of_both(const Arm& arm, const Arm& beside) const {
+    const InnerArc &goes = arcs_[arm.arc], &stays = arcs_[beside.arc];
+    const bool same_way = arm.at_end == beside.at_end;
+    const Vec2 a = stays.pieces[0].start, b = stays.pieces[0].end;
+    const Vec2 other = arm.at_end ? goes.pieces[0].end : goes.pieces[0].start; // where the arm begins
+    return cross(b - a, other - a) > 0 ? std::pair(same_way ? goes.left : goes.right, stays.right)
+                                       : std::pair(stays.left, same_way ? goes.right : goes.left);
+  }
+
+  /// Does each curve keep an edge if the arms become arms at `to`?
+  bool keeps_all_curves(std::size_t edge, const std::vector<Arm>& arms, Vec2 to) const {
+    std::map<int, std::size_t> gone{{curve(edge), 1}};
+    for (const Arm& arm : arms)
+      if (arm.arc != edge)
+        if (const Arm* beside = arm_to(to, vertex_after(arm)); beside != nullptr && curve(beside->arc) >= 0)
+          ++gone[curve(arm.arc)];
+    return std::ranges::all_of(gone,
+                               [&](const auto& one) { return one.first < 0 || arcs_of_.at(one.first) > one.second; });
   }
 
   /// Moves all arcs at `from` to `to` if they may move. @param edge the arc between the two
@@ -145,7 +156,8 @@ private:
     const std::vector<Arm> arms = arms_.at(key(from));
     const bool is_free_end = arms_.at(key(to)).size() < 2 && !is_on_rim(to);
     if (is_free_end || arms.size() < 3 || must_stay(from) ||
-        !std::ranges::all_of(arms, [&](const Arm& arm) { return arm.arc == edge || may_move(arm, from, to); }))
+        !std::ranges::all_of(arms, [&](const Arm& arm) { return arm.arc == edge || may_move(arm, from, to); }) ||
+        !keeps_all_curves(edge, arms, to))
       return false;
     tree_.remove(nodes_.vertices.at(key(from)));
     remove(edge);
@@ -168,26 +180,34 @@ private:
     arms_.at(key(to)).push_back(arm);
   }
 
-  /// Makes one edge of two that have the same ends now: the face between them is gone. It lies on that side of the arc
-  /// that stays on which both have the same region.
+  /// Makes one edge of two that have the same ends now: the face between them is gone.
   void merge(const Arm& arm, const Arm& beside) {
-    const InnerArc& goes = arcs_[arm.arc];
     InnerArc& stays = arcs_[beside.arc];
-    const bool same_way = arm.at_end == beside.at_end;
-    const Vec2 a = stays.pieces[0].start, b = stays.pieces[0].end;
-    const Vec2 other = arm.at_end ? goes.pieces[0].end : goes.pieces[0].start; // where the arm begins
-    if (cross(b - a, other - a) > 0)
-      stays.left = same_way ? goes.left : goes.right;
-    else
-      stays.right = same_way ? goes.right : goes.left;
+    if (const auto [left, right] = sides_of_both(arm, beside); left != stays.left || right != stays.right) {
+      stays.left = left;
+      stays.right = right;
+      stays.lost_area = 0; // of another pair
+    }
     if (curve(beside.arc) < 0 && curve(arm.arc) >= 0) {
       --arcs_of_[curve(beside.arc)];
       stays.pieces[0].part = curve(arm.arc);
       ++arcs_of_[curve(beside.arc)];
+      if (arm.at_end != beside.at_end)
+        turn_round(beside.arc); // edges have the direction of their curve
     }
     remove(arm.arc);
     if (stays.left == stays.right && curve(beside.arc) < 0)
       remove(beside.arc);
+  }
+
+  void turn_round(std::size_t arc) {
+    InnerArc& turned = arcs_[arc];
+    std::swap(turned.left, turned.right);
+    std::swap(turned.pieces[0].start, turned.pieces[0].end);
+    for (const Vec2 p : {start(arc), end(arc)})
+      for (Arm& arm : arms_.at(key(p)))
+        if (arm.arc == arc)
+          arm.at_end = !arm.at_end;
   }
 
   /// Notes which region the last piece of an arm takes from when it turns to another node.
@@ -207,7 +227,8 @@ private:
   VertexTree& tree_;
   std::vector<char> is_gone_; // by arc
   std::map<Key, std::vector<Arm>> arms_;
-  std::map<int, std::size_t> arcs_of_; // by curve: how many are left
+  std::map<int, std::size_t> arcs_of_;  // by curve: how many are left
+  std::set<std::pair<int, int>> pairs_; // regions that are neighbours, the lower one first
 };
 
 } // namespace

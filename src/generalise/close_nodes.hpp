@@ -26,12 +26,11 @@ struct Nodes {
 /// @brief Removes arcs that are one edge shorter than GeneraliseRules::node_distance, and moves all other arcs at one
 /// of its ends to the other end. An end stays if it lies on the boundary, if it is one of Nodes::kept, or if fewer than
 /// three arcs meet there. Two arcs that become the same edge become one arc, which separates what lies beyond both of
-/// them; it keeps its own curve if it has one. Where a curve ends at such a distance behind a node, that edge goes.
-/// Other free ends of curves stay, and so does the last edge of a curve. Arcs do not cross each other afterwards: the
-/// triangle over which an edge moves holds no vertex. Where two regions touched along the edge, the other regions
-/// around it touch in the node. Adds to InnerCurves::joined_nodes and
-/// InnerCurves::losses.
-/// Cost: O(n log n) for n arcs.
+/// them; it keeps its own curve if it has one. They stay two if they separate two regions that were not neighbours
+/// before. Free ends of curves stay, too, and so does the last edge of a curve. Arcs do not cross each other
+/// afterwards: the triangle over which an edge moves holds no vertex. Where two regions touched along the edge, the
+/// other regions around it touch in the node. Adds to InnerCurves::joined_nodes and InnerCurves::losses. Cost: O(n log
+/// n) for n arcs.
 void join_close_nodes(geometry::InnerCurves& curves, const Nodes& nodes, const sizing::SizeField& size,
                       VertexTree& tree);
 

@@ -58,12 +58,6 @@ struct GeneraliseRules {
   /// [h] Two nodes of curves and interfaces that are joined by a shorter edge become one node, because shorter edges
   /// need triangles that are as small. Not measured.
   static constexpr double node_distance = 0.1;
-  /// [h] A curve that ends nearer than this to another curve, without touching it, is shortened. Not measured.
-  static constexpr double end_gap = 0.1;
-  /// [h] The distance that such an end has afterwards: a gap for one row of triangles. Not measured.
-  static constexpr double end_clearance = 0.3;
-  /// [h] Largest distance by which such an end is drawn back. Not measured.
-  static constexpr double most_drawn_back = 0.5;
   /// [h] Ragged runs of a curve lose vertices that are nearer to each other. Measured on twelve meshes of coasts: with
   /// 0.05, the simplification takes 1.25 times as long, the mean of the largest alphas is 1.250 instead of 1.238, and
   /// that of the smallest angles 35.3 degrees instead of 37.1.

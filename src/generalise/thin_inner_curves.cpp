@@ -3,7 +3,6 @@
 
 #include "generalise/close_nodes.hpp"
 #include "generalise/cut_wedges.hpp"
-#include "generalise/free_ends.hpp"
 #include "generalise/rules.hpp"
 #include "generalise/smooth_arcs.hpp"
 #include "generalise/vertex_tree.hpp"
@@ -235,9 +234,8 @@ geometry::InnerCurves thin_inner_curves(const geometry::InnerCurves& curves, con
                                         const sizing::SizeField& size, const geometry::Lattice& lattice,
                                         std::span<const Vec2> corners) {
   const FlowRequest request{size, boundary.bounding_box(), GeneraliseRules::flow_reach, corners};
-  geometry::InnerCurves smooth{smooth_arcs(curves.arcs, boundary, request, lattice), curves.names};
+  const geometry::InnerCurves smooth{smooth_arcs(curves.arcs, boundary, request, lattice), curves.names};
   const ArcRequest all{size, lattice, corners};
-  draw_back_ends(smooth, boundary, all);
   geometry::InnerCurves thinned = thin_arcs(smooth, boundary, all, curves.arcs);
   cut_wedges(thinned, geometry::narrow_wedges(curves.arcs, boundary), boundary, all);
   geometry::set_wedges(thinned.arcs, boundary);

@@ -15,7 +15,7 @@ namespace {
 
 // [steps] How far coordinates may be from even spacing: coordinates in single precision are rounded.
 constexpr double uneven = 0.02;
-constexpr hsize_t longest_axis = hsize_t{1} << 31;
+constexpr hsize_t longest_axis = hsize_t{1} << 24;
 constexpr std::size_t chunk_cache = std::size_t{1} << 26; // [bytes] a band of chunks of a large raster
 
 Hdf5File open_netcdf(const std::string& path) {

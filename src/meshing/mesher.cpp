@@ -245,8 +245,8 @@ void Run::report_boundary() {
     run_.log.warning("{}", warning.formatted());
   if (const std::int64_t joined = stage_.polygon.inner.joined_nodes; joined > 0)
     run_.log.summary(
-        "{} node{} of curves or interfaces {} joined with another one, or moved away from another curve, since the "
-        "distance is below 0.1 h; keep_features = true keeps all",
+        "{} place{} where curves or interfaces meet {} joined with another one, since the edge between them "
+        "is shorter than 0.1 h; keep_features = true keeps all",
         joined, joined == 1 ? "" : "s", joined == 1 ? "is" : "are");
   comm::run_agreed(run_.comm, [this] {
     fitting::warn_of_fine_features(stage_, run_.options.min_size.has_value(), run_.log);

@@ -61,8 +61,11 @@ RegionSize::RegionSize(const SizeField& field, const geometry::Domain& domain, s
   const double width = border_width * std::fmax(container.width(), container.height());
   for (const RegionBound& bound : bounds) {
     Outline outline = outline_of(bound.region, domain);
-    if (outline.segments.empty())
+    if (outline.segments.empty()) { // the region fills the whole torus, or nothing
+      if (periods_.x > 0 && periods_.y > 0 && domain.regions().areas[static_cast<std::size_t>(bound.region)] > 0)
+        whole_ = std::fmin(whole_, bound.size);
       continue;
+    }
     const double border = width + outline.deviation;
     if (periods_.any()) {
       periodic_.push_back({geometry::PeriodicOutline(outline.segments, periods_, lattice_), bound.size, border});
@@ -84,6 +87,7 @@ double RegionSize::size(Vec2 p) const {
     if (one.size < size && p.x >= one.box.min.x && p.x <= one.box.max.x && p.y >= one.box.min.y &&
         p.y <= one.box.max.y && (one.outline.inside(lattice_.snap(p)) || one.outline.nearest(p, one.border)))
       size = one.size;
+  size = std::fmin(size, whole_);
   const Vec2 canonical = periods_.wrap(p);
   for (const PeriodicBound& one : periodic_)
     if (one.size < size &&

@@ -8,6 +8,7 @@
 #include "trime/geometry/segment_grid.hpp"
 #include "trime/sizing/size_field.hpp"
 
+#include <limits>
 #include <vector>
 
 namespace trime::sizing {
@@ -46,7 +47,8 @@ private:
   geometry::Lattice lattice_;
   geometry::Periods periods_;
   std::vector<Bounded> bounded_;
-  std::vector<PeriodicBound> periodic_; // in a periodic container instead
+  std::vector<PeriodicBound> periodic_;                    // in a periodic container instead
+  double whole_ = std::numeric_limits<double>::infinity(); // bound of a region that fills such a container
 };
 
 } // namespace trime::sizing

@@ -136,6 +136,19 @@ class Fields(unittest.TestCase):
             sizes = self.mesh(work, "h.asc", "sizing.expression=2*grad(h)")[2]
             numpy.testing.assert_allclose(sizes, 0.04, rtol=1e-6)
 
+    def test_periodic_container(self):
+        """The data are needed in the whole container, also if no curve bounds the shape."""
+        with Workspace() as work:
+            x = numpy.arange(-2, 23) / 20
+            row = numpy.round(0.03 + 0.015 * numpy.cos(2 * numpy.pi * x), 9)
+            write_ascii(work / "h.asc", [row] * 25, (-0.125, -0.125), 0.05)
+            periodic = ("domain.periodic_x=true", "domain.periodic_y=true", "shape.geometry=domain")
+            points, _, sizes, _, _ = self.mesh(work, "h.asc", *periodic, ranks=2, gradation=0.3)
+            self.assertLess(sizes[numpy.abs(points[:, 0] - 0.5) < 0.05].max(), 0.02)
+            self.assertGreater(sizes[points[:, 0] < 0.05].min(), 0.04)
+            write_ascii(work / "half.asc", [row[:12]] * 25, (-0.125, -0.125), 0.05)
+            self.refuse(work, "half.asc", "covers the shape", overrides=periodic)
+
     def test_degrees(self):
         """A bay across the date line, with data from 0 to 360 and from -180 to 180."""
         with Workspace() as work:

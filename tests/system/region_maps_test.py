@@ -126,6 +126,15 @@ class RegionMaps(unittest.TestCase):
                 if name != b"domain":  # gaps between the layers
                     self.assertAlmostEqual(area, given, delta=0.02 * given, msg=name)
 
+    def test_features_without_a_value_are_named(self):
+        squares = [feature(unit, [(x, 0), (x + 0.25, 0), (x + 0.25, 1), (x, 1)])
+                   for unit, x in (("a", 0), (None, 0.25), ("b", 0.5))]
+        self.write_map(squares)
+        mesh = self.mesh("[shape]\ngeometry = domain\n[region.g]\nfile = map.geojson\nattribute = unit\n", 500)
+        self.assertEqual(set(mesh.names.values()), {"domain", "g", "g.a", "g.b"})
+        self.assertIn("1 feature has no value of the attribute 'unit', or the value 0, and belongs to 'g'", self.report)
+        self.assertIn("(feature 2)", self.report)
+
     def test_grains(self):
         self.write_map(grains(150, 5))
         mesh = self.same_on_three_ranks(

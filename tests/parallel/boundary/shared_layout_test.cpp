@@ -30,7 +30,8 @@ private:
 BoundarySites lay_together(const comm::Communicator& comm, const geometry::Boundary& boundary,
                            const sizing::SizeField& size, const FeatureRule& rule) {
   return make_boundary_sites(comm, [&] {
-    const auto curves = std::make_shared<const LaidCurves>(boundary, geometry::InnerCurves{});
+    static const geometry::InnerCurves none;
+    const auto curves = std::make_shared<const LaidCurves>(boundary, none);
     return std::make_unique<BoundaryRefiner>(curves, BoundarySizes(size, size), testing::unit_lattice(),
                                              LayoutRequest{30, {}, {}, rule, std::numeric_limits<std::size_t>::max()});
   });

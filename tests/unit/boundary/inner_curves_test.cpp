@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Curves inside a shape: from lines to arcs, from arcs to chords, and what the guard does with the chords.
 #include "core/random.hpp"
-#include "generalise/rules.hpp"
 #include "generalise/thin_inner_curves.hpp"
 #include "geometry/predicates.hpp"
 #include "polygon/both_sides.hpp"
@@ -112,24 +111,6 @@ TEST(InnerCurves, SmallTrianglesBetweenThreeLinesClose) {
       }
   EXPECT_EQ(low, high);
   EXPECT_EQ(simplified(domain, 0.001).arcs.size(), 9U);
-}
-
-TEST(InnerCurves, EndsShortlyBehindACrossingGo) {
-  const geometry::Domain domain = square_with({{{0.1, 0.5}, {0.9, 0.5}}, {{0.5, 0.2}, {0.5, 0.504}}});
-  EXPECT_EQ(simplified(domain, 0.1).arcs.size(), 3U);
-  EXPECT_EQ(simplified(domain, 0.01).arcs.size(), 4U);
-}
-
-TEST(InnerCurves, EndsShortlyBeforeAnotherCurveAreDrawnBack) {
-  constexpr double h = 0.1;
-  const geometry::Domain domain = square_with({{{0.1, 0.5}, {0.9, 0.5}}, {{0.5, 0.1}, {0.5, 0.496}}});
-  const InnerCurves apart = simplified(domain, h);
-  EXPECT_EQ(apart.joined_nodes, 1);
-  ASSERT_EQ(apart.arcs.size(), 2U);
-  const double gap = 0.5 - apart.arcs[1].pieces.back().end.y;
-  EXPECT_GE(gap, generalise::GeneraliseRules::end_clearance * h - 1e-9);
-  EXPECT_LE(gap, 0.4 * h);
-  EXPECT_EQ(simplified(domain, 0.01).joined_nodes, 0);
 }
 
 TEST(InnerCurves, AreCutAtCrossings) {
