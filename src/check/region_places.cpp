@@ -99,11 +99,13 @@ public:
   std::string reason;             ///< why regions cannot be compared; empty: they can
 
 private:
-  /// Adds the name of a region of a file, or the names NAME.VALUE that follow in the mesh file.
+  /// Adds the name of a region of a file, or the names NAME.VALUE that follow in the mesh file. Features without a
+  /// value have the name NAME.
   void add_stored(const std::string& name, bool has_values, const std::vector<std::string>& stored) {
     if (!has_values)
       names.push_back(name);
-    while (has_values && names.size() < stored.size() && stored[names.size()].starts_with(name + "."))
+    const auto belongs = [&](const std::string& other) { return other == name || other.starts_with(name + "."); };
+    while (has_values && names.size() < stored.size() && belongs(stored[names.size()]))
       names.push_back(stored[names.size()]);
   }
 
