@@ -45,8 +45,8 @@ void read_expression(const Settings& settings, SizingOptions& sizing, Diagnostic
   }
 }
 
-/// The sections [field.NAME].
-void read_fields(const Settings& settings, const std::filesystem::path& directory, SizingOptions& sizing) {
+/// Reads the sections [field.NAME].
+void read_field_sections(const Settings& settings, const std::filesystem::path& directory, SizingOptions& sizing) {
   for (const std::string& name : settings.fields()) {
     const std::string section = "field." + name;
     const std::filesystem::path file = settings.text(section, "file");
@@ -228,7 +228,7 @@ void read_sizing(const Settings& settings, const std::filesystem::path& director
   read_bounds(settings, options.mesh, problems);
   if (settings.was_refused("sizing", "type"))
     return;
-  read_fields(settings, directory, sizing);
+  read_field_sections(settings, directory, sizing);
   if (sizing.type == "expression")
     read_expression(settings, sizing, problems);
   else

@@ -9,6 +9,7 @@
 #include "trime/comm/communicator.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,7 +22,7 @@ struct BuiltField {
   std::shared_ptr<const fields::Field> field;
   fields::ToFile to_file;
   bool in_metres = false; ///< whether degrees of the file become metres in gradients
-  std::uint64_t hash = 0;
+  std::uint64_t hash = 0; ///< see fields::ReadField
 };
 
 /// @brief Reads all fields that the formula uses, and checks that they cover the shape. Collective.

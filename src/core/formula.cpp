@@ -4,21 +4,19 @@
 #include "core/angle.hpp"
 #include "core/distance_formula.hpp"
 #include "core/elementary.hpp"
+#include "core/object_pool.hpp"
 #include "core/quoted.hpp"
-#include "core/thread_loop.hpp"
 #include "trime/core/error.hpp"
 
 #include <muParser.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cctype>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <set>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -148,9 +146,8 @@ struct DistanceUse {
   }
 };
 
-/// A parser with its variables, in separate cache lines.
-struct alignas(64) Slot {
-  std::atomic_flag taken = ATOMIC_FLAG_INIT;
+/// A parser with its variables.
+struct Slot {
   double x = 0, y = 0;
   std::vector<double> distances, fields;
   mu::Parser parser;
@@ -338,30 +335,13 @@ struct Slots {
   std::string text, where;
   std::vector<DistanceUse> uses;
   std::vector<FormulaField> fields;
-  std::vector<std::unique_ptr<Slot>> slots;
+  ObjectPool<Slot> slots;
 
   void fill();
-
-  Slot& take() {
-    // A thread comes back to the parser that it had last, so that parsers rarely wander between caches.
-    static std::atomic<std::size_t> threads{0};
-    thread_local const std::size_t home = threads.fetch_add(1, std::memory_order_relaxed);
-    for (std::size_t k = home;; ++k) {
-      Slot& slot = *slots[k % slots.size()];
-      if (!slot.taken.test_and_set(std::memory_order_acquire))
-        return slot;
-      if (k - home >= slots.size()) // more threads than parsers: one of them will be free soon
-        std::this_thread::yield();
-    }
-  }
 };
 
 void Slots::fill() {
-  const std::size_t count =
-      std::clamp<std::size_t>(std::max<std::size_t>(thread_count(), std::thread::hardware_concurrency()), 1, 256);
-  for (std::size_t k = 0; k < count; ++k) {
-    slots.push_back(std::make_unique<Slot>(text, uses, fields));
-    Slot& slot = *slots.back();
+  const auto translate = [this](Slot& slot) {
     try {
       slot.parser.Eval(); // translates the text once
       if (slot.parser.GetNumResults() != 1)
@@ -371,23 +351,23 @@ void Slots::fill() {
       reject(where, text, position < 0 ? 1 : static_cast<std::size_t>(position) + 1,
              with_distances(complaint(slot.parser, error), text, uses));
     }
-  }
+  };
+  slots.fill(translate, text, uses, fields);
 }
 
 /// @param set sets the distances of a slot
 template <class Set>
-double value_of(Slots& slots, double x, double y, const Set& set) {
-  Slot& slot = slots.take();
+double value_of(const Slots& slots, double x, double y, const Set& set) {
+  const ObjectPool<Slot>::Loan loan = slots.slots.take();
+  Slot& slot = *loan;
   slot.x = x;
   slot.y = y;
   set(slot);
-  double value = std::numeric_limits<double>::quiet_NaN();
   try {
-    value = slot.parser.Eval();
+    return slot.parser.Eval();
   } catch (const mu::ParserError&) { // a domain error of a function
+    return std::numeric_limits<double>::quiet_NaN();
   }
-  slot.taken.clear(std::memory_order_release);
-  return value;
 }
 
 } // namespace
@@ -429,7 +409,11 @@ struct DistanceFormula::Store : Slots {
 
 /// Adds all uses of `grad(NAME)`.
 void DistanceFormula::Store::add_gradients() {
+  const std::vector<DistanceUse> of_distances = uses;
   for (DistanceUse use : distance_uses(where, text, "grad")) {
+    if (std::ranges::any_of(of_distances,
+                            [&](const DistanceUse& of) { return of.begin < use.begin && use.begin < of.end; }))
+      continue; // a part of a name
     const auto field =
         std::find_if(fields.begin(), fields.end(), [&](const FormulaField& one) { return one.name == use.name; });
     if (field == fields.end())
@@ -457,7 +441,7 @@ DistanceFormula::DistanceFormula(const std::string& text, const std::string& whe
     }
   store_->add_gradients();
   store_->fill();
-  const auto& variables = store_->slots.front()->parser.GetUsedVar();
+  const auto& variables = store_->slots.first().parser.GetUsedVar();
   for (std::size_t k = 0; k < store_->fields.size(); ++k)
     if (variables.contains(store_->fields[k].name))
       store_->used_fields.push_back(k);

@@ -13,9 +13,14 @@ namespace {
 
 using geometry::Vec2;
 
-constexpr double half_cell = 0.5 + 1e-6; // [cells] rounding of coordinates in single precision
+// [width of the raster] How far a shape may reach beyond the cells: coordinates in single precision are rounded.
+constexpr double cover_slack = 1e-6;
+
+// [halvings] Of a part of a piece, until its ends are half a cell apart: 16 million places.
 constexpr int most_halvings = 24;
-constexpr int first_pieces_of_arc = 16;
+
+// [1] Parts of an arc, and of an edge that may be as long as a period, before they are halved.
+constexpr int first_parts = 16;
 
 /// Appends places along the curve of one piece.
 class PieceWalker {
@@ -26,7 +31,7 @@ public:
   /// Appends the places of a piece after its start.
   void walk(const geometry::Piece& piece) {
     const double length = piece.length();
-    const int parts = piece.circular || period_ > 0 ? first_pieces_of_arc : 1; // an edge may be as long as a period
+    const int parts = piece.circular || period_ > 0 ? first_parts : 1;
     for (int k = 0; k < parts; ++k)
       walk(piece, length * k / parts, length * (k + 1) / parts, most_halvings);
   }
@@ -113,15 +118,13 @@ public:
       for (const std::int64_t i : {column, std::min(column + 1, raster_.x.count - 1)})
         if (const std::size_t k = raster_.index(i, j); std::isnan(raster_.value(k)) && !seen_[k]) {
           seen_[k] = true;
-          if (count_++ == 0) {
-            column_ = i;
-            row_ = j;
+          if (values_.count++ == 0) {
+            values_.column = i;
+            values_.row = j;
           }
         }
   }
-  std::int64_t count() const { return count_; }
-  std::int64_t column() const { return column_; }
-  std::int64_t row() const { return row_; }
+  const MissingValues& values() const { return values_; }
 
 private:
   static std::int64_t low(const Axis& axis, double coordinate) {
@@ -131,7 +134,7 @@ private:
   }
   const Raster& raster_;
   std::vector<bool> seen_;
-  std::int64_t count_ = 0, column_ = 0, row_ = 0;
+  MissingValues values_;
 };
 
 /// Returns for each row of cells between centres where the outline crosses the middle of the row, in ascending order.
@@ -183,7 +186,7 @@ Outline outline_of(const geometry::Boundary& boundary, const ToFile& to_file, Ve
 }
 
 void check_cover(const Outline& outline, const geometry::Box& cells, const std::string& path) {
-  const double slack_x = (half_cell - 0.5) * cells.width(), slack_y = (half_cell - 0.5) * cells.height();
+  const double slack_x = cover_slack * cells.width(), slack_y = cover_slack * cells.height();
   for (std::size_t loop = 0; loop < outline.loops.size(); ++loop)
     for (std::size_t k = 0; k < outline.loops[loop].size(); ++k) {
       const Vec2 p = outline.loops[loop][k];
@@ -199,31 +202,22 @@ void check_cover(const Outline& outline, const geometry::Box& cells, const std::
     }
 }
 
-void check_values(const Outline& outline, const Raster& raster, const Window& window, const RasterFile& file,
-                  const std::string& path) {
+MissingValues missing_values(const Outline& outline, const Raster& raster) {
   Missing missing(raster);
   for (const std::vector<Vec2>& ring : outline.loops)
     for (const Vec2 p : ring)
       missing.need(p);
-  if (raster.x.count > 1) {
-    const std::vector<std::vector<double>> rows = crossings(closed_at_pole(outline, raster.y), raster.y);
-    for (std::size_t row = 0; row < rows.size(); ++row)
-      for (std::size_t k = 0; k + 1 < rows[row].size(); k += 2) {
-        const double first = std::fmax(0, std::ceil(raster.x.index(rows[row][k]) - 0.5));
-        const double last = std::fmin(static_cast<double>(raster.x.count - 2), raster.x.index(rows[row][k + 1]) - 0.5);
-        for (double column = first; column <= last; ++column)
-          missing.need_cell(static_cast<std::int64_t>(column), static_cast<std::int64_t>(row));
-      }
-  }
-  if (missing.count() == 0)
-    return;
-  const std::int64_t row = window.first_row + missing.row(), count = file.y().count;
-  const std::int64_t column = window.first_column + missing.column(), columns = file.x().count;
-  throw GeometryError(fmt::format(
-      "{}: expected data everywhere in the shape, found no data in {} of the cells that it needs, the first one in row "
-      "{}, column {}, at ({:.9g}, {:.9g}). Set 'fill = nearest' to take the nearest value, or 'fill = VALUE'",
-      path, missing.count(), file.begins_in_north() ? count - row : row + 1, (column % columns + columns) % columns + 1,
-      raster.x.at(static_cast<double>(missing.column())), raster.y.at(static_cast<double>(missing.row()))));
+  if (raster.x.count == 1)
+    return missing.values();
+  const std::vector<std::vector<double>> rows = crossings(closed_at_pole(outline, raster.y), raster.y);
+  for (std::size_t row = 0; row < rows.size(); ++row)
+    for (std::size_t k = 0; k + 1 < rows[row].size(); k += 2) {
+      const double first = std::fmax(0, std::ceil(raster.x.index(rows[row][k]) - 0.5));
+      const double last = std::fmin(static_cast<double>(raster.x.count - 2), raster.x.index(rows[row][k + 1]) - 0.5);
+      for (double column = first; column <= last; ++column)
+        missing.need_cell(static_cast<std::int64_t>(column), static_cast<std::int64_t>(row));
+    }
+  return missing.values();
 }
 
 } // namespace trime::fields

@@ -140,6 +140,22 @@ Raster read_cut(RasterFile& file, const Cut& cut, const FieldRequest& request) {
   return raster;
 }
 
+/// @throws GeometryError with row, column, place and number of the values that the shape needs and the file lacks
+void check_values(const Outline& outline, const Raster& raster, const Cut& cut, const RasterFile& file,
+                  const std::string& path) {
+  const MissingValues missing = missing_values(outline, raster);
+  if (missing.count == 0)
+    return;
+  const std::int64_t row = cut.window.first_row + missing.row, column = cut.window.first_column + missing.column;
+  const std::int64_t columns = cut.around > 0 ? cut.around : file.x().count;
+  throw GeometryError(fmt::format(
+      "{}: expected data everywhere in the shape, found no data in {} of the cells that it needs, the first one in row "
+      "{}, column {}, at ({:.9g}, {:.9g}). Set 'fill = nearest' to take the nearest value, or 'fill = VALUE'",
+      path, missing.count, file.begins_in_north() ? file.y().count - row : row + 1,
+      (column % columns + columns) % columns + 1, raster.x.at(static_cast<double>(missing.column)),
+      raster.y.at(static_cast<double>(missing.row))));
+}
+
 /// A hash of places and values.
 std::uint64_t hash_of(const Raster& raster) {
   std::uint64_t hash = 0;
@@ -167,8 +183,8 @@ Raster read_on_root(const FieldRequest& request, const geometry::Boundary& bound
                     Head& head) {
   const std::unique_ptr<RasterFile> file = open_raster(request.path, request.variable, request.hint);
   if (request.period == 0 && !request.outside_is_nearest) { // before places are listed at steps of half a cell
-    constexpr double any = std::numeric_limits<double>::infinity();
-    const Outline ends = outline_of(boundary, to_file, {any, any}, 0);
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    const Outline ends = outline_of(boundary, to_file, {infinite, infinite}, 0);
     check_cover(ends, cut_of(*file, ends, 0).cells, request.path);
   }
   const Outline outline = outline_of(boundary, to_file, {file->x().step, file->y().step}, request.period);
@@ -177,7 +193,7 @@ Raster read_on_root(const FieldRequest& request, const geometry::Boundary& bound
     check_cover(outline, cut.cells, request.path);
   Raster raster = read_cut(*file, cut, request);
   if (request.fill == Fill::refuse)
-    check_values(outline, raster, cut.window, *file, request.path);
+    check_values(outline, raster, cut, *file, request.path);
   fill_with_nearest(raster);
   if (std::isnan(raster.value(0)))
     throw GeometryError(fmt::format("{}: expected data around the shape, found none", request.path));

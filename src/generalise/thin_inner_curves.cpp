@@ -218,7 +218,7 @@ geometry::InnerCurves thin_arcs(const geometry::InnerCurves& curves, const geome
       ends.rim_vertices = std::max(ends.rim_vertices, vertex + 1);
   const std::span<const std::vector<LocalIndex>> of_arcs = std::span(vertices).subspan(boundary.loops.size());
   const ArcEnds arc_ends(curves.arcs, of_arcs, ends.rim_vertices);
-  geometry::InnerCurves thinned{{}, curves.names, {}, {}, curves.joined_nodes, curves.kinds};
+  geometry::InnerCurves thinned{{}, curves.names, {}, {}, 0, curves.kinds};
   for (std::size_t k = 0; k < curves.arcs.size(); ++k)
     thinned.arcs.push_back(
         ArcThinner(curves.arcs[k], of_arcs[k], arc_ends.must_bend(of_arcs[k]), {size, tree, corners}).run());

@@ -9,8 +9,8 @@
 
 namespace trime::projection {
 
-/// @brief Converts places of a plane to longitude and latitude. There are as many Transforms as
-/// threads, and each call borrows one. Thread-safe.
+/// @brief Converts places of a plane to longitude and latitude. There are as many Transforms as threads, and each call
+/// borrows one. Thread-safe.
 class DegreesOfPlane {
 public:
   /// @throws ConfigError if PROJ does not know the plane

@@ -15,7 +15,7 @@ from collections import Counter
 import h5py
 import numpy
 
-from trime_run import PROGRAM, Workspace, run
+from trime_run import PROGRAM, WorkspaceCase, run
 
 CHECK = os.environ.get("TRIME_CHECK", str(pathlib.Path(PROGRAM).parent / "src" / "check" / "trime_check"))
 BASE = """[shape]
@@ -97,18 +97,7 @@ def section(name, file, *lines):
     return "\n".join([f"[curve.{name}]", f"file = {file}", *lines]) + "\n"
 
 
-class Curves(unittest.TestCase):
-    def setUp(self):
-        self.space = Workspace()
-        self.directory = self.space.__enter__()
-
-    def tearDown(self):
-        self.space.__exit__(None, None, None)
-
-    def write(self, name, *lines):
-        text = "\n\n".join("\n".join(f"{x!r} {y!r}" for x, y in line) for line in lines)
-        (self.directory / name).write_text(text + "\n")
-
+class Curves(WorkspaceCase):
     def run_config(self, curves, points=2000, formats="vtkhdf xdmf", extra="", ranks=1, threads=1):
         config = self.directory / "mesh.ini"
         config.write_text(BASE.format(curves=curves, points=points, directory=self.directory, formats=formats) + extra)

@@ -17,7 +17,7 @@ import h5py
 import numpy as np
 
 from region_meshes import circle, rectangle, region
-from trime_run import PROGRAM, Workspace, run
+from trime_run import PROGRAM, WorkspaceCase, run
 
 CHECK = os.environ.get("TRIME_CHECK", str(pathlib.Path(PROGRAM).parent / "src" / "check" / "trime_check"))
 LAYOUTS = [(2, 1), (3, 2), (7, 1)]  # ranks, threads; the first mesh is made on 1 rank and 1 thread
@@ -83,18 +83,7 @@ class PeriodicMesh:
         return {"points": self.points, "triangles": self.triangles, "region": self.region, **self.lists}
 
 
-class PeriodicRegions(unittest.TestCase):
-    def setUp(self):
-        self.space = Workspace()
-        self.directory = self.space.__enter__()
-
-    def tearDown(self):
-        self.space.__exit__(None, None, None)
-
-    def write(self, name, *lines):
-        (self.directory / name).write_text("\n\n".join("\n".join(f"{x!r} {y!r}" for x, y in line)
-                                                       for line in lines) + "\n")
-
+class PeriodicRegions(WorkspaceCase):
     def run_config(self, text, periodic=BOTH, points=2000, shape="geometry = domain", ranks=1, threads=1, more=""):
         config = self.directory / "mesh.ini"
         words = ["true" if one else "false" for one in periodic]

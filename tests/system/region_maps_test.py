@@ -19,7 +19,7 @@ from scipy.sparse.linalg import spsolve
 from scipy.spatial import Voronoi
 
 from region_meshes import Mesh, by_number, circle, rectangle, region
-from trime_run import PROGRAM, Workspace, run
+from trime_run import PROGRAM, WorkspaceCase, run
 
 CHECK = os.environ.get("TRIME_CHECK", str(pathlib.Path(PROGRAM).parent / "src" / "check" / "trime_check"))
 RADIUS, RATIO = 0.3, 10.0  # of the disc, and its conductivity over that of the rest
@@ -84,14 +84,7 @@ def error_of(mesh, is_disc):
     return math.sqrt(square)
 
 
-class RegionMaps(unittest.TestCase):
-    def setUp(self):
-        self.space = Workspace()
-        self.directory = self.space.__enter__()
-
-    def tearDown(self):
-        self.space.__exit__(None, None, None)
-
+class RegionMaps(WorkspaceCase):
     def mesh(self, text, points, ranks=1, threads=2):
         config = self.directory / "mesh.ini"
         config.write_text(f"{text}[meshing]\npoints = {points}\n"

@@ -15,7 +15,7 @@ import numpy as np
 from region_meshes import (Mesh, by_number, circle, lengths_of, read_by_meshio, read_freefem, read_triangle, rectangle,
                            region, rounded, shoelace, triangle)
 from solver_readers import Exo, Inp
-from trime_run import PROGRAM, Workspace, run
+from trime_run import PROGRAM, WorkspaceCase, run
 
 CHECK = os.environ.get("TRIME_CHECK", str(pathlib.Path(PROGRAM).parent / "src" / "check" / "trime_check"))
 LAYOUTS = [(2, 1), (3, 2), (7, 1)]  # ranks, threads; the first mesh is made on 1 rank and 1 thread
@@ -23,18 +23,7 @@ EXACT, WITH_SLIVERS = 1e-11, 1e-10
 ALL_FORMATS = "vtkhdf xdmf gmsh medit freefem triangle vtu abaqus exodus"
 
 
-class RegionsTest(unittest.TestCase):
-    def setUp(self):
-        self.space = Workspace()
-        self.directory = self.space.__enter__()
-
-    def tearDown(self):
-        self.space.__exit__(None, None, None)
-
-    def write(self, name, *rings):
-        text = "\n\n".join("\n".join(f"{x!r} {y!r}" for x, y in ring) for ring in rings)
-        (self.directory / name).write_text(text + "\n")
-
+class RegionsTest(WorkspaceCase):
     def run_config(self, text, points=2000, shape="geometry = domain", formats="vtkhdf xdmf", ranks=1, threads=1):
         config = self.directory / "mesh.ini"
         config.write_text(f"[shape]\n{shape}\n{text}[meshing]\npoints = {points}\n"

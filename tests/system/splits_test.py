@@ -17,7 +17,7 @@ from collections import Counter
 import h5py
 import numpy as np
 
-from trime_run import PROGRAM, ROOT, Workspace, run
+from trime_run import PROGRAM, ROOT, WorkspaceCase, run
 
 sys.path.insert(0, str(ROOT / "scripts" / "python"))
 import trime_mpi  # noqa: E402  (found by the line above)
@@ -108,18 +108,7 @@ class Mesh:
         return self.points[self.pairs[np.asarray(self.paths) == number, 0]]
 
 
-class Splits(unittest.TestCase):
-    def setUp(self):
-        self.space = Workspace()
-        self.directory = self.space.__enter__()
-
-    def tearDown(self):
-        self.space.__exit__(None, None, None)
-
-    def write(self, name, *lines):
-        text = "\n\n".join("\n".join(f"{x!r} {y!r}" for x, y in line) for line in lines)
-        (self.directory / f"{name}.xy").write_text(text + "\n")
-
+class Splits(WorkspaceCase):
     def run_config(self, curves, shape=SQUARE, formats="vtkhdf xdmf", points=2000, ranks=1, threads=1):
         config = self.directory / "mesh.ini"
         config.write_text(BASE.format(shape=shape, curves=curves, points=points, directory=self.directory,
@@ -158,7 +147,7 @@ class Splits(unittest.TestCase):
 
     def test_crack(self):
         """Case 18: a crack with free ends, which is a weir in fort14."""
-        self.write("crack", [(0.3, 0.5), (0.7, 0.5)])
+        self.write("crack.xy", [(0.3, 0.5), (0.7, 0.5)])
         mesh = self.same_on_all(split("crack", "weir_height = 2"), formats="vtkhdf xdmf fort14 medit")
         sides = mesh.sides("crack")
         edges = len(sides) // 2
@@ -218,7 +207,7 @@ class Splits(unittest.TestCase):
 
     def test_fault_from_rim_to_rim(self):
         """All points are doubled, and the mesh falls into two components."""
-        self.write("fault", [(0, 0.4), (1, 0.6)])
+        self.write("fault.xy", [(0, 0.4), (1, 0.6)])
         mesh = self.same_on_all(split("fault"))
         edges = len(mesh.sides("fault")) // 2
         self.assertEqual(len(mesh.pairs), edges + 1)
@@ -231,8 +220,8 @@ class Splits(unittest.TestCase):
 
     def test_branches(self):
         """Where three split arms meet there are three copies, and four where two curves cross. Each arm is a path."""
-        self.write("bar", [(0.2, 0.5), (0.8, 0.5)])
-        self.write("stem", [(0.5, 0.5), (0.5, 0.8)])
+        self.write("bar.xy", [(0.2, 0.5), (0.8, 0.5)])
+        self.write("stem.xy", [(0.5, 0.5), (0.5, 0.8)])
         mesh = self.same_on_all(split("bar") + split("stem"))
         self.assertEqual(mesh.copies()[(0.5, 0.5)], 3)
         self.assertEqual(Counter(mesh.copies().values())[3], 1)
@@ -240,7 +229,7 @@ class Splits(unittest.TestCase):
         self.assertEqual(len(np.unique(mesh.paths)), 3)
         self.assertEqual(mesh.path(2)[0].tolist(), [0.5, 0.5])
         self.assertEqual((mesh.euler(), mesh.kinds), (0, ["outer", "hole"]))
-        self.write("stem", [(0.5, 0.2), (0.5, 0.8)])
+        self.write("stem.xy", [(0.5, 0.2), (0.5, 0.8)])
         mesh = self.mesh(split("bar") + split("stem"), ranks=3)
         self.assertEqual(mesh.copies()[(0.5, 0.5)], 4)
         info = run("info", self.directory / "mesh.h5")
@@ -253,8 +242,8 @@ class Splits(unittest.TestCase):
 
     def test_one_of_two_that_cross(self):
         """An arm that is not split does not divide: the crossing has two copies."""
-        self.write("bar", [(0.2, 0.5), (0.8, 0.5)])
-        self.write("stem", [(0.5, 0.2), (0.5, 0.8)])
+        self.write("bar.xy", [(0.2, 0.5), (0.8, 0.5)])
+        self.write("stem.xy", [(0.5, 0.2), (0.5, 0.8)])
         mesh = self.same_on_all(split("bar") + section("stem"))
         self.assertEqual(mesh.copies()[(0.5, 0.5)], 2)
         self.assertEqual(len(np.unique(mesh.paths)), 1)
@@ -264,7 +253,7 @@ class Splits(unittest.TestCase):
         at_crossing = [v for edge in mesh.curve_edges.tolist() for v in edge
                        if mesh.points[v].tolist() == [0.5, 0.5]]
         self.assertEqual(sorted(at_crossing), sorted(mesh.pairs[mesh.path(0).tolist().index([0.5, 0.5])].tolist()))
-        self.write("stem", [(0.5, 0.5), (0.5, 0.8)])
+        self.write("stem.xy", [(0.5, 0.5), (0.5, 0.8)])
         mesh = self.mesh(section("bar") + split("stem"), ranks=2)
         self.assertNotIn((0.5, 0.5), mesh.copies())  # a free end on a curve that is not split
 
@@ -272,7 +261,7 @@ class Splits(unittest.TestCase):
         """A wall on a part of an interface between two regions, which ends there."""
         shape = (SQUARE + "\nrest = low\n[region.high]\ngeometry = above\n"
                  "[shape.above]\ntype = rectangle\nx_min = 0\ny_min = 0.5\nx_max = 1\ny_max = 1")
-        self.write("wall", [(0.25, 0.5), (0.75, 0.5)])
+        self.write("wall.xy", [(0.25, 0.5), (0.75, 0.5)])
         mesh = self.same_on_all(split("wall"), shape=shape)
         self.assertAlmostEqual(mesh.length("wall"), 1, delta=TOLERANCE)
         places = mesh.points[mesh.interfaces]
@@ -287,7 +276,7 @@ class Splits(unittest.TestCase):
     def test_rings(self):
         """A closed curve cuts a disc out; a curve from the rim to a hole joins their loops."""
         ring = [(0.5 + 0.2 * math.cos(k * math.pi / 20), 0.5 + 0.2 * math.sin(k * math.pi / 20)) for k in range(40)]
-        self.write("ring", ring + ring[:1])
+        self.write("ring.xy", ring + ring[:1])
         mesh = self.same_on_all(split("ring", "weir_height = 0.5"), formats="vtkhdf xdmf fort14")
         edges = len(mesh.sides("ring")) // 2
         self.assertEqual(len(mesh.pairs), edges)
@@ -297,23 +286,23 @@ class Splits(unittest.TestCase):
         self.assertIn(f"{edges + 1} 24 = ring", text.splitlines())  # the first pair stands at the end again
         shape = ("[shape]\ngeometry = difference(domain, hole)\n"
                  "[shape.hole]\ntype = circle\ncenter = 0.5 0.5\nradius = 0.2")
-        self.write("cut", [(0, 0.5), (0.3, 0.5)])
+        self.write("cut.xy", [(0, 0.5), (0.3, 0.5)])
         mesh = self.mesh(split("cut"), shape=shape, ranks=3)
         self.assertEqual((mesh.euler(), mesh.components, mesh.kinds), (1, 1, ["outer"]))
         self.assertEqual(len(mesh.pairs), len(mesh.sides("cut")) // 2 + 1)
 
     def test_short(self):
         """A curve that is far shorter than the triangles has one pair between its ends."""
-        self.write("dot", [(0.5, 0.5), (0.501, 0.5)])
+        self.write("dot.xy", [(0.5, 0.5), (0.501, 0.5)])
         mesh = self.mesh(split("dot"))
         self.assertEqual((len(mesh.pairs), len(mesh.curve_edges), len(mesh.sides("dot"))), (1, 0, 4))
         self.assertEqual((mesh.euler(), mesh.euler(mesh.joined())), (0, 1))
 
     def test_several_curves(self):
         """Curves that follow each other, in both directions, and a branch that reaches the rim."""
-        self.write("a", [(0.2, 0.3), (0.5, 0.3)])
-        self.write("b", [(0.5, 0.3), (0.8, 0.3)], [(0.8, 0.6), (0.8, 0.3)])
-        self.write("c", [(0.8, 0.6), (1, 0.6)])
+        self.write("a.xy", [(0.2, 0.3), (0.5, 0.3)])
+        self.write("b.xy", [(0.5, 0.3), (0.8, 0.3)], [(0.8, 0.6), (0.8, 0.3)])
+        self.write("c.xy", [(0.8, 0.6), (1, 0.6)])
         mesh = self.same_on_all(split("a") + split("b") + split("c"))
         self.assertEqual((mesh.euler(), mesh.components, mesh.kinds), (1, 1, ["outer"]))
         self.assertEqual(len(np.unique(mesh.paths)), 3)  # the lines of b have been joined to one
@@ -333,7 +322,7 @@ class Splits(unittest.TestCase):
                     x, y, angle, length = (numbers.uniform(0.05, 0.95), numbers.uniform(0.05, 0.95),
                                            numbers.uniform(0, 2 * math.pi), numbers.uniform(0.05, 0.5))
                     lines.append([(x, y), (x + length * math.cos(angle), y + length * math.sin(angle))])
-                self.write(name, *lines)
+                self.write(f"{name}.xy", *lines)
             curves = split("a", "clip = true") + split("b", "clip = true") + section("c", "clip = true")
             made = [self.mesh(curves, shape=shape, points=6000, ranks=ranks) for ranks in (1, 3)]
             self.assertEqual(made[0].bits, made[1].bits)
@@ -344,7 +333,7 @@ class Splits(unittest.TestCase):
         """A wall from rim to rim on the only interface: the regions no longer share an edge."""
         shape = (SQUARE + "\nrest = low\n[region.high]\ngeometry = above\n"
                  "[shape.above]\ntype = rectangle\nx_min = 0\ny_min = 0.5\nx_max = 1\ny_max = 1")
-        self.write("wall", [(0, 0.5), (1, 0.5)])
+        self.write("wall.xy", [(0, 0.5), (1, 0.5)])
         mesh = self.mesh(split("wall"), shape=shape, ranks=2, formats="vtkhdf xdmf gmsh 2dm")
         self.assertEqual((len(mesh.interfaces), mesh.components, mesh.euler()), (0, 2, 2))
         self.assertAlmostEqual(mesh.length("wall"), 2, delta=TOLERANCE)
@@ -361,7 +350,7 @@ class Splits(unittest.TestCase):
 
     def test_restart(self):
         """A run that was stopped goes on to the same mesh."""
-        self.write("crack", [(0.3, 0.5), (0.7, 0.6)])
+        self.write("crack.xy", [(0.3, 0.5), (0.7, 0.6)])
         whole = self.mesh(split("crack"))
         config, stop = self.directory / "mesh.ini", self.directory / "stop"
         (self.directory / "mesh.h5").unlink()
@@ -374,7 +363,7 @@ class Splits(unittest.TestCase):
         self.assertEqual(Mesh(self.directory / "mesh.h5").bits, whole.bits)
 
     def test_refusals(self):
-        self.write("crack", [(0.3, 0.5), (0.7, 0.5)])
+        self.write("crack.xy", [(0.3, 0.5), (0.7, 0.5)])
         done = self.run_config(section("crack", "weir_height = 2"))
         self.assertEqual(done.returncode, 2)
         self.assertIn("expected 'split = true'", done.stderr)
@@ -389,8 +378,8 @@ class Splits(unittest.TestCase):
 
     def test_finds_damage(self):
         """Each change is found by a check with this name."""
-        self.write("crack", [(0.3, 0.5), (0.7, 0.5)])
-        self.write("stem", [(0.5, 0.5), (0.5, 1)])
+        self.write("crack.xy", [(0.3, 0.5), (0.7, 0.5)])
+        self.write("stem.xy", [(0.5, 0.5), (0.5, 1)])
         self.mesh(split("crack") + split("stem"))
 
         def swap_rows(file):

@@ -5,6 +5,7 @@ import pathlib
 import shutil
 import subprocess
 import tempfile
+import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = os.environ.get("TRIME_PROGRAM", str(ROOT / "build" / "ci" / "trime_mpi"))
@@ -54,3 +55,19 @@ class Workspace:
 
     def __exit__(self, *_):
         shutil.rmtree(self.path, ignore_errors=True)
+
+
+class WorkspaceCase(unittest.TestCase):
+    """Tests that each have a separate directory, `self.directory`."""
+
+    def setUp(self):
+        self.space = Workspace()
+        self.directory = self.space.__enter__()
+
+    def tearDown(self):
+        self.space.__exit__(None, None, None)
+
+    def write(self, name, *lines):
+        """Writes lines of points as text, as `.xy` files hold curves and rings."""
+        text = "\n\n".join("\n".join(f"{x!r} {y!r}" for x, y in line) for line in lines)
+        (self.directory / name).write_text(text + "\n")
