@@ -130,6 +130,20 @@ class Fields(unittest.TestCase):
             (work / "g.tif").write_bytes(b"II*\0" + bytes(100))
             self.refuse(work, "g.tif", "gdal_translate -of AAIGrid")
 
+    def test_restart_with_other_data(self):
+        with Workspace() as work:
+            write_ascii(work / "h.asc", [ROW] * 6)
+            (work / "stop").touch()
+            stopped = self.run_mesh(work, "h.asc", f"checkpoint.stop_file={work / 'stop'}", ranks=2)
+            self.assertEqual(stopped.returncode, 75, stopped.stdout + stopped.stderr)
+            write_ascii(work / "h.asc", [ROW] * 5 + [[0.021] * 6])
+            other = self.run_mesh(work, "h.asc", "--restart", "auto")
+            self.assertEqual(other.returncode, 4, other.stdout + other.stderr)
+            self.assertIn("has changed since", other.stderr)
+            write_ascii(work / "h.asc", [ROW] * 6)
+            again = self.run_mesh(work, "h.asc", "--restart", "auto")
+            self.assertEqual(again.returncode, 0, again.stdout + again.stderr)
+
     def test_gradient(self):
         with Workspace() as work:
             write_ascii(work / "h.asc", [ROW] * 6)
