@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/config.hpp"
 
+#include "app/config_formulas.hpp"
 #include "app/config_inside.hpp"
 #include "app/config_sizing.hpp"
 #include "app/present_names.hpp"
@@ -379,6 +380,11 @@ void read_output(const Settings& settings, RunOptions& options, Diagnostics& pro
                              formats::words_of(&formats::FormatInfo::holds_periodic, "and")));
   options.output.names.open_boundary = read_open_boundary(settings.text("output", "open_boundary"));
   options.output.names.in_degrees = settings.text("output", "coordinates") == "degrees";
+  options.courant.time_step = settings.optional_number("output", "time_step").value_or(0);
+  options.courant.limit = settings.number("output", "courant");
+  if (options.courant.time_step > 0 && settings.text("output", "depth") == "none")
+    problems.add(settings.line("output", "time_step"),
+                 "'time_step' in [output] needs 'depth', from which the speed of waves follows");
   options.mesh.snapshot_interval = interval == -1 ? 0 : static_cast<int>(interval);
   options.output.steps = options.mesh.snapshot_interval != 0;
   check_name(settings, file.name, problems);
@@ -438,7 +444,8 @@ RunOptions parse_config(std::string_view text, const std::string& path, const st
   const Settings settings(document, problems);
   read_domain(settings, options, problems);
   read_shape_options(settings, fs::path(path).parent_path(), options, problems);
-  read_sizing(settings, fs::path(path).parent_path(), options, problems);
+  read_formulas(settings, fs::path(path).parent_path(), options, problems);
+  read_sizing(settings, options, problems);
   read_meshing(settings, options.container, options.mesh, problems);
   read_fixed_points_options(settings, fs::path(path).parent_path(), options, problems);
   read_parallel(settings, options);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/config_sizing.hpp"
 
-#include "core/distance_formula.hpp"
 #include "core/quoted.hpp"
 #include "sizing/rules.hpp"
 #include "trime/core/error.hpp"
@@ -16,60 +15,6 @@ namespace {
 
 // [1] Growth of a uniform size per length from the lengths in size_at, if none is given.
 constexpr double boundary_gradation = 0.15;
-
-/// The formula must parse; it is made again when the number of threads is known.
-void read_expression(const Settings& settings, SizingOptions& sizing, Diagnostics& problems) {
-  sizing.expression = settings.text("sizing", "expression");
-  if (sizing.expression == "none") {
-    problems.add(settings.line("sizing", "type"),
-                 "'type = expression' in [sizing] needs 'expression', for example 'expression = 1+3*x+3*y'");
-    return;
-  }
-  const std::string what = "'expression' in [sizing]";
-  const int line = settings.line("sizing", "expression");
-  sizing.expression_place = problems.place(line) + ": " + what;
-  try {
-    // The names of the boundary are known only when the shape has been made.
-    const auto one = [](double, double) { return 1.0; };
-    std::vector<FormulaField> fields;
-    for (const FieldOptions& field : sizing.fields)
-      fields.push_back({field.name, one, one});
-    const DistanceFormula formula(
-        sizing.expression, what, [&](const std::string&) -> PlaceFunction { return one; }, std::move(fields));
-    const std::vector<std::string> used = formula.fields();
-    std::erase_if(sizing.fields, [&](const FieldOptions& field) {
-      return std::find(used.begin(), used.end(), field.name) == used.end();
-    });
-  } catch (const ConfigError& error) {
-    problems.add(line, error.what());
-  }
-}
-
-/// Reads the sections [field.NAME].
-void read_field_sections(const Settings& settings, const std::filesystem::path& directory, SizingOptions& sizing) {
-  for (const std::string& name : settings.fields()) {
-    const std::string section = "field." + name;
-    const std::filesystem::path file = settings.text(section, "file");
-    FieldOptions& field = sizing.fields.emplace_back();
-    field.name = name;
-    field.file = (directory / file).lexically_normal().string();
-    field.file_is_relative = file.is_relative();
-    if (const std::string variable = settings.text(section, "variable"); variable != "none")
-      field.variable = variable;
-    field.fill = settings.text(section, "fill");
-    field.fill_value = settings.number(section, "fill");
-    field.outside_is_nearest = settings.text(section, "outside") == "nearest";
-    field.coordinates = settings.text(section, "coordinates");
-  }
-}
-
-/// A field that no formula uses is probably a mistake.
-void warn_of_unused_fields(const Settings& settings, RunOptions& options) {
-  for (const std::string& name : settings.fields())
-    if (std::ranges::none_of(options.sizing.fields, [&](const FieldOptions& field) { return field.name == name; }))
-      options.warnings.push_back(
-          fmt::format("[field.{}] has no effect: 'expression' in [sizing] does not use it", name));
-}
 
 void read_bounds(const Settings& settings, meshing::MeshOptions& mesh, Diagnostics& problems) {
   mesh.min_size = settings.optional_number("sizing", "min_size");
@@ -116,7 +61,7 @@ void read_gradation(const Settings& settings, RunOptions& options, Diagnostics& 
 void read_scale(const Settings& settings, RunOptions& options, Diagnostics& problems) {
   const std::string scale = settings.text("sizing", "scale");
   options.scale_is_automatic = scale == "auto";
-  options.mesh.absolute_sizes = scale == "absolute" || (scale == "auto" && !options.sizing.fields.empty());
+  options.mesh.absolute_sizes = scale == "absolute" || (scale == "auto" && options.sizing.uses_data);
   if (options.mesh.absolute_sizes && options.sizing.type == "uniform" && !options.mesh.max_size &&
       !settings.is_set("sizing", "max_size"))
     problems.add(settings.line("sizing", "scale"),
@@ -221,19 +166,12 @@ void warn_without_effect(const Settings& settings, const std::string& key, const
 
 } // namespace
 
-void read_sizing(const Settings& settings, const std::filesystem::path& directory, RunOptions& options,
-                 Diagnostics& problems) {
+void read_sizing(const Settings& settings, RunOptions& options, Diagnostics& problems) {
   SizingOptions& sizing = options.sizing;
   sizing.type = settings.text("sizing", "type");
   read_bounds(settings, options.mesh, problems);
   if (settings.was_refused("sizing", "type"))
     return;
-  read_field_sections(settings, directory, sizing);
-  if (sizing.type == "expression")
-    read_expression(settings, sizing, problems);
-  else
-    sizing.fields.clear();
-  warn_of_unused_fields(settings, options);
   read_gradation(settings, options, problems);
   read_scale(settings, options, problems);
   check_automatic_scale(settings, options, problems);

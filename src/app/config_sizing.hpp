@@ -6,13 +6,10 @@
 #include "app/options.hpp"
 #include "app/settings.hpp"
 
-#include <filesystem>
-
 namespace trime::app {
 
-/// Fills `options.sizing` and the bounds of the size. A key without effect gives a warning.
-/// @param directory that of the config file
-void read_sizing(const Settings& settings, const std::filesystem::path& directory, RunOptions& options,
-                 Diagnostics& problems);
+/// Fills `options.sizing`, except for the formula, and the bounds of the size. A key without effect gives a warning.
+/// @pre `sizing.uses_data` is set
+void read_sizing(const Settings& settings, RunOptions& options, Diagnostics& problems);
 
 } // namespace trime::app

@@ -79,7 +79,7 @@ std::vector<BuiltField> read_fields(const RunOptions& options, const ShapeInput&
   const geometry::Frame& frame = input.domain().frame();
   const geometry::Boundary where = frame.periods().any() ? sides_of(frame.container()) : input.boundary();
   std::shared_ptr<const projection::DegreesOfPlane> degrees; // all fields ask it for the same places
-  for (const FieldOptions& one : options.sizing.fields) {
+  for (const FieldOptions& one : options.fields) {
     fields::FieldRequest request = request_of(one);
     const bool in_degrees = is_in_degrees(one, is_projected, request, comm);
     BuiltField field{one.name, nullptr, [](Vec2 p) { return p; }, in_degrees && is_projected};

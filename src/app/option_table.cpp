@@ -260,8 +260,8 @@ const Option table[] = {
      .key = "file",
      .kind = OptionKind::path,
      .meaning =
-         "a raster of numbers, such as the depth of the sea, whose name is a variable of the formula of [sizing]: "
-         "an ESRI ASCII grid or a NetCDF-4 file"},
+         "a raster of numbers, such as the depth of the sea, whose name is a variable of the formulas of the size and "
+         "of the depth: an ESRI ASCII grid or a NetCDF-4 file"},
     {.section = "field.NAME",
      .key = "variable",
      .kind = OptionKind::text,
@@ -524,16 +524,35 @@ const Option table[] = {
      .key = "open_boundary",
      .kind = OptionKind::text,
      .fallback = "auto",
-     .meaning = "names of the open parts of the boundary, for `fort14`, separated by commas. auto: parts with the word "
+     .meaning = "names of the open parts of the boundary, for `fort14` and `gr3`, separated by commas. auto: parts "
+                "with the word "
                 "open, ocean or sea; none: no part is open"},
     {.section = "output",
      .key = "coordinates",
      .kind = OptionKind::word,
      .fallback = "plane",
      .choices = "plane degrees",
-     .meaning =
-         "coordinates in files of `fort14` and `2dm`; plane: those of the mesh; degrees: longitude and latitude, "
-         "for meshes of contours that have a projection"},
+     .meaning = "coordinates in files of `fort14`, `gr3` and `2dm`; plane: those of the mesh; degrees: longitude and "
+                "latitude, "
+                "for meshes of contours that have a projection"},
+    {.section = "output",
+     .key = "depth",
+     .kind = OptionKind::text,
+     .fallback = "none",
+     .meaning = "depth at the points for coastal models, positive downwards, as a formula of x, y and data of "
+                "[field.NAME], such as `-elevation`; none: the files of `fort14`, `gr3` and `2dm` have the depth 0"},
+    {.section = "output",
+     .key = "time_step",
+     .fallback = "none",
+     .choices = "none",
+     .range = positive,
+     .meaning = "time step of the model that will use the mesh [s]: the report says how many triangles have a Courant "
+                "number sqrt(9.81 depth) time_step / (shortest edge) above `courant`; lengths are in metres"},
+    {.section = "output",
+     .key = "courant",
+     .fallback = "1",
+     .range = positive,
+     .meaning = "largest Courant number that the model should have"},
     {.section = "output",
      .key = "interval",
      .kind = OptionKind::integer,

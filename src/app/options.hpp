@@ -3,6 +3,7 @@
 // file after it was read and checked.
 #pragma once
 
+#include "app/courant.hpp"
 #include "formats/mesh_series.hpp"
 #include "sizing/boundary_distance.hpp"
 #include "trime/core/log.hpp"
@@ -60,6 +61,12 @@ struct CurveOptions {
   std::string normalize_with;    ///< name of the contour whose normalisation is applied; empty: no normalisation
 };
 
+/// A formula of a config, already checked.
+struct FormulaText {
+  std::string text;
+  std::string place; ///< its origin for messages: "config.ini:17: 'expression' in [sizing]"
+};
+
 /// One section [field.NAME] of a config.
 struct FieldOptions {
   std::string name;
@@ -74,11 +81,10 @@ struct FieldOptions {
 
 /// The section [sizing] of a config. The absolute bounds of the size are in meshing::MeshOptions.
 struct SizingOptions {
-  std::string type = "uniform";     ///< uniform, automatic or expression
-  double gradation = 0.1;           ///< K of the type automatic; 0 makes the size uniform
-  std::string expression;           ///< formula of the size, already checked, if the type is expression
-  std::vector<FieldOptions> fields; ///< data that the formula may use
-  std::string expression_place;     ///< origin of the formula for messages: "config.ini:17: 'expression' in [sizing]"
+  std::string type = "uniform";           ///< uniform, automatic or expression
+  double gradation = 0.1;                 ///< K of the type automatic; 0 makes the size uniform
+  FormulaText expression;                 ///< formula of the size, if the type is expression
+  bool uses_data = false;                 ///< whether the formula uses a field
   std::vector<sizing::NamedSize> size_at; ///< lengths on parts of the boundary
   std::string size_at_place;              ///< origin of `size_at` for messages
 };
@@ -113,7 +119,10 @@ struct RunOptions {
   meshing::MeshOptions
       mesh; ///< options of the mesher, without the fixed points, which are read together with the shape
   FixedPointsFile fixed_points;
+  std::vector<FieldOptions> fields; ///< data that a formula uses
   SizingOptions sizing;
+  FormulaText depth;               ///< formula of the depth at points; empty if none is asked for
+  CourantOptions courant;          ///< time step of the model that will use the mesh
   bool scale_is_automatic = false; ///< true if the user does not say whether sizes are lengths
   int setup_threads = 0;           ///< threads per rank while shape and size field are made; 0: chosen from the machine
   int mesh_threads = 0;            ///< threads per rank during meshing; 0: chosen from the machine

@@ -5,6 +5,7 @@
 #include "app/command_line.hpp"
 #include "app/config.hpp"
 #include "app/convert.hpp"
+#include "app/depth.hpp"
 #include "app/machine.hpp"
 #include "app/option_table.hpp"
 #include "app/provenance.hpp"
@@ -233,15 +234,15 @@ ShapeInput read_input(const Job& job) {
   return input;
 }
 
-/// The data that the formula of the size uses. Collective.
+/// The data that formulas use. Collective.
 std::vector<BuiltField> read_data(const Job& job, const ShapeInput& input) {
-  if (job.options.sizing.fields.empty())
+  if (job.options.fields.empty())
     return {};
   const auto timing = job.timers.scope("size field");
   std::vector<BuiltField> fields = read_fields(job.options, input, job.comm);
   for (const BuiltField& field : fields)
     job.log.info("field {}: {}", field.name, description_of(field));
-  if (job.options.scale_is_automatic)
+  if (job.options.scale_is_automatic && job.options.sizing.uses_data)
     job.log.summary("scale = absolute, since the formula of the size uses data: its values are lengths");
   return fields;
 }
@@ -275,7 +276,10 @@ private:
   const geometry::Boundary& boundary() const { return input_.boundary(); }
   void check_output();
   meshing::MeshResult make_mesh(const Provenance& provenance);
+  io::Metadata describe(const Provenance& provenance, const meshing::MeshResult& result, const SizeSummary& sizes,
+                        const Measurements& measured) const;
   io::WrittenFiles publish(const Provenance& provenance, const meshing::MeshResult& result, const SizeSummary& sizes);
+  void add_depths(meshing::MeshResult& result);
 
   const Job& job_;
   const Placement placement_;
@@ -286,7 +290,8 @@ private:
   formats::MeshSeries series_;
   const meshing::MeshOptions mesh_; // with places in the container
   BuiltSize size_;
-  double points_ = 0; // about as many as the mesh will have
+  double points_ = 0;                     // about as many as the mesh will have
+  std::optional<CourantSummary> courant_; // of the final mesh, if the config has a time step
 };
 
 void MeshRun::check_output() {
@@ -331,9 +336,27 @@ meshing::MeshResult MeshRun::make_mesh(const Provenance& provenance) {
   return mesher.run();
 }
 
+/// Gives the points their depths if the config asks for them.
+void MeshRun::add_depths(meshing::MeshResult& result) {
+  if (job_.options.depth.text.empty())
+    return;
+  const auto timing = job_.timers.scope("depth");
+  add_depth(build_formula(job_.options.depth, input_.domain(), fields_), result, job_.comm);
+  if (job_.options.courant.time_step > 0)
+    courant_ = courant_numbers(job_.options.courant, result.mesh, job_.comm);
+}
+
+io::Metadata MeshRun::describe(const Provenance& provenance, const meshing::MeshResult& result,
+                               const SizeSummary& sizes, const Measurements& measured) const {
+  io::Metadata metadata = describe_run(provenance, result, sizes, measured);
+  if (courant_)
+    metadata.groups.push_back(group_of(*courant_));
+  return metadata;
+}
+
 io::WrittenFiles MeshRun::publish(const Provenance& provenance, const meshing::MeshResult& result,
                                   const SizeSummary& sizes) {
-  const io::Metadata metadata = describe_run(provenance, result, sizes, gather_measurements(job_.timers, job_.comm));
+  const io::Metadata metadata = describe(provenance, result, sizes, gather_measurements(job_.timers, job_.comm));
   const auto timing = job_.timers.scope("output");
   return series_.write_final({final_retriangulation(result), result.mesh, result.quality, metadata});
 }
@@ -356,13 +379,14 @@ ExitCode MeshRun::run() {
                                input_.domain().curves().names,
                                job_.places.ring_lines(boundary()),
                                input_.domain().curves().kinds}};
-  const meshing::MeshResult result = make_mesh(provenance);
+  meshing::MeshResult result = make_mesh(provenance);
+  add_depths(result);
   const SizeSummary sizes = summarize_size(size_.description, result.mesh, job_.comm);
   keeper_.go_to_the_end();
   const io::WrittenFiles files = job_.options.write ? publish(provenance, result, sizes) : io::WrittenFiles{};
   const Measurements measured = gather_measurements(job_.timers, job_.comm);
   if (!job_.line.report.empty())
-    io::write_report_file(job_.line.report, describe_run(provenance, result, sizes, measured),
+    io::write_report_file(job_.line.report, describe(provenance, result, sizes, measured),
                           {static_cast<int>(exit_code(result)), files.paths}, job_.comm);
   keeper_.remove_all();
   const std::vector<std::int64_t> edges =
@@ -371,8 +395,12 @@ ExitCode MeshRun::run() {
     job_.log.info("{}", run_report(result, sizes, measured, files, input_.normalized));
   else
     job_.log.summary("{}", run_summary({provenance, result, sizes, measured, files, edges}));
-  if (job_.options.write && job_.options.output.wants(formats::Format::adcirc))
-    job_.log.summary("fort14: {}", formats::open_boundary_text(series_options(job_, input_).names, edges));
+  for (const formats::Format format : {formats::Format::adcirc, formats::Format::schism})
+    if (job_.options.write && job_.options.output.wants(format))
+      job_.log.summary("{}: {}", formats::info_of(format).word,
+                       formats::open_boundary_text(series_options(job_, input_).names, edges));
+  if (courant_)
+    job_.log.summary("{}", text_of(*courant_));
   if (!is_complete(result))
     job_.log.warning("{}", incompleteness(result, job_.options.write));
   return exit_code(result);

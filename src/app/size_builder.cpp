@@ -50,8 +50,8 @@ void check_periods(const DistanceFormula& formula, const RunOptions& options, co
       throw ConfigError(fmt::format("{}: expected the same size on both sides of the periodic "
                                     "container, found {:.6g} at {} and {:.6g} at {} for '{}'; use "
                                     "a formula with the period of the container",
-                                    options.sizing.expression_place, at_p, Place(p, 6), at_q, Place(q, 6),
-                                    options.sizing.expression));
+                                    options.sizing.expression.place, at_p, Place(p, 6), at_q, Place(q, 6),
+                                    options.sizing.expression.text));
   };
   for (int k = 0; k < lines; ++k) {
     const double share = (k + 0.5) / lines;
@@ -68,16 +68,9 @@ BuiltSize expression_size(const RunOptions& options, const geometry::Domain& dom
   const geometry::Box box =
       domain.frame().periods().any() ? domain.frame().container() : domain.boundary().bounding_box();
   BuiltSize size;
-  size.formula = std::make_unique<const DistanceFormula>(
-      sizing.expression, sizing.expression_place,
-      [&](const std::string& name) -> PlaceFunction {
-        const auto curves = std::make_shared<const sizing::BoundaryDistance>(
-            name.empty() ? domain.boundary() : sizing::named_curves(domain), name, images_of(domain));
-        return [curves](double x, double y) { return curves->distance({x, y}); };
-      },
-      functions_of(fields));
+  size.formula = std::make_unique<const DistanceFormula>(build_formula(sizing.expression, domain, fields));
   size.field = std::make_unique<const sizing::DistanceSize>(*size.formula, box);
-  size.description = "expression " + sizing.expression;
+  size.description = "expression " + sizing.expression.text;
   check_periods(*size.formula, options, domain.frame());
   return size;
 }
@@ -162,6 +155,18 @@ void lower_in_regions(const RunOptions& options, const geometry::Domain& domain,
 
 } // namespace
 
+DistanceFormula build_formula(const FormulaText& formula, const geometry::Domain& domain,
+                              const std::vector<BuiltField>& fields) {
+  return DistanceFormula(
+      formula.text, formula.place,
+      [&](const std::string& name) -> PlaceFunction {
+        const auto curves = std::make_shared<const sizing::BoundaryDistance>(
+            name.empty() ? domain.boundary() : sizing::named_curves(domain), name, images_of(domain));
+        return [curves](double x, double y) { return curves->distance({x, y}); };
+      },
+      functions_of(fields));
+}
+
 BuiltSize build_size(const RunOptions& options, const geometry::Domain& domain, const comm::Communicator& comm,
                      std::vector<sizing::RegionBound> bounds, const std::vector<BuiltField>& fields) {
   check_largest_size(options, domain);
@@ -180,7 +185,7 @@ BuiltSize build_size(const RunOptions& options, const geometry::Domain& domain, 
     lower_at_boundary(options, domain, size);
   if (options.mesh.absolute_sizes)
     size.description += ", absolute";
-  if (!fields.empty())
+  if (options.sizing.uses_data)
     size.description += fmt::format(", {:.3g} MB of data", static_cast<double>(bytes_of(fields)) / 1e6);
   if (options.mesh.min_size)
     size.description += fmt::format(", at least {:.6g}", *options.mesh.min_size);

@@ -25,6 +25,11 @@ struct BuiltSize {
   std::string description; ///< text for the report, such as "automatic, gradation 0.1, features of 0.004 and more"
 };
 
+/// Makes a formula that may use data, and distances to the boundary and its parts.
+/// @throws ConfigError that says what is wrong with a name; the same on all ranks
+DistanceFormula build_formula(const FormulaText& formula, const geometry::Domain& domain,
+                              const std::vector<BuiltField>& fields);
+
 /// Makes the size field. @param bounds sizes in regions, in addition to those of the options
 /// @throws ConfigError on all ranks together
 /// @note Collective.

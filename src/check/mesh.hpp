@@ -59,6 +59,7 @@ struct Mesh {
 
   std::vector<double> alpha, beta, size;
   std::vector<std::int64_t> region, boundary, fixed;
+  std::vector<double> depth; ///< empty if the file has none
 
   bool has_vtk = true,
        has_plain = true; ///< whether the file has the groups /VTKHDF and /Mesh/mesh; a run may leave out one of the two

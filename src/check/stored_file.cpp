@@ -298,6 +298,8 @@ void read_fields(const ArrayReader& reader, Mesh& mesh) {
   mesh.boundary = reader.integers(fields + "PointData/boundary", "int32", {n});
   mesh.size = reader.reals(fields + "PointData/size", "float32", {n});
   mesh.fixed = reader.integers(fields + "PointData/fixed", "uint8", {n});
+  if (reader.file.has(fields + "PointData/depth"))
+    mesh.depth = reader.reals(fields + "PointData/depth", "float64", {n});
   if (mesh.has_plain)
     mesh.petsc_points = reader.reals("/geometry/vertices", "float64", {n, 2});
 }

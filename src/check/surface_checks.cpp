@@ -27,6 +27,7 @@ public:
     if (prefix_.empty())
       check_tags();
     check_fixed();
+    check_depth();
     if (loops_are_sound_)
       counted_.boundary = std::move(loops_);
     return counted_;
@@ -255,6 +256,16 @@ private:
       counted_.corners += mesh_.fixed[i] == 1 && mesh_.boundary[i] != 0;
     }
     report_.none(prefix_ + "fixed_array", wrong, "values of `fixed` that are neither 0 nor 1");
+  }
+
+  void check_depth() {
+    if (mesh_.depth.empty())
+      return;
+    Tally wrong;
+    for (std::size_t i = 0; i < mesh_.depth.size(); ++i)
+      if (!std::isfinite(mesh_.depth[i]))
+        wrong.note([&] { return fmt::format("point {} at {}", i, place_of(mesh_.points[i])); });
+    report_.none(prefix_ + "depth_array", wrong, "points whose depth is not a number");
   }
 
   const StoredFile& file_;

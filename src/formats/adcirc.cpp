@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// fort.14 of ADCIRC (user's manual, "ADCIRC Grid and Boundary Information File"), which other coastal models read too:
-// depth 0; boundary segments by the names of the parts. A part that is not open is land: an island where it goes round
-// a hole, mainland elsewhere. Curves that are split are land too, or weirs if they have a height.
+// fort.14 of ADCIRC (user's manual, "ADCIRC Grid and Boundary Information File"), which other coastal models read too,
+// and hgrid.gr3 of SCHISM (manual, "Horizontal grid"), which has nearly the same lines. Boundary segments go by the
+// names of the parts. A part that is not open is land: an island where it goes round a hole, mainland elsewhere. Curves
+// that are split are land too; those with a height are weirs in fort.14, and land in hgrid.gr3, which has no weirs.
 #include "formats/degrees.hpp"
 #include "formats/node_strings.hpp"
 #include "formats/open_boundary.hpp"
@@ -11,15 +12,24 @@
 namespace trime::formats {
 namespace {
 
-constexpr int mainland = 20, island = 21; // with the natural condition of no flow
-constexpr int weir = 24;                  // between two points, with a height and coefficients
+constexpr int weir = 24; // in fort.14: between two points, with a height and coefficients
+
+/// What the two formats do differently.
+struct Dialect {
+  const char* word;
+  int mainland, island; ///< in fort.14 with the natural condition of no flow
+  bool repeats_first;   ///< whether a ring has its first point at the end, too
+  bool has_weirs;
+};
+constexpr Dialect fort14{"fort14", 20, 21, true, true}, gr3{"gr3", 0, 1, false, false};
 
 struct Group {
-  std::string text;
+  bool repeats_first;
+  std::string text{};
   std::int64_t segments = 0, points = 0;
 
   void add(const NodeString& string, const std::string& head, const std::string& name) {
-    const std::size_t count = string.points.size() + (string.is_closed ? 1 : 0);
+    const std::size_t count = string.points.size() + (string.is_closed && repeats_first ? 1 : 0);
     text += fmt::format("{}{} = {}\n", count, head, name);
     for (std::size_t k = 0; k < count; ++k)
       text += fmt::format("{}\n", string.points[k % string.points.size()] + 1);
@@ -46,39 +56,48 @@ const geometry::CurveKind* kind_of(std::int64_t label, const Names& names) {
 }
 
 std::string boundary_text(const std::vector<NodeString>& strings, const std::vector<PairString>& pairs,
-                          const ExchangeMesh& mesh) {
+                          const ExchangeMesh& mesh, const Dialect& dialect) {
   const Names& names = mesh.names();
   const std::vector<bool> is_open = open_parts(names);
-  Group open, land;
+  Group open{dialect.repeats_first}, land{dialect.repeats_first};
   for (const NodeString& string : strings) {
     const auto part = static_cast<std::size_t>(string.label - 1);
     const std::string& name = mesh.line_names()[part];
-    if (const geometry::CurveKind* kind = kind_of(string.label, names); kind != nullptr && kind->weir_height)
+    if (const geometry::CurveKind* kind = kind_of(string.label, names);
+        dialect.has_weirs && kind != nullptr && kind->weir_height)
       continue;
     if (part < is_open.size() && is_open[part])
       open.add(string, "", name);
     else
-      land.add(string, fmt::format(" {}", string.is_island ? island : mainland), name);
+      land.add(string, fmt::format(" {}", string.is_island ? dialect.island : dialect.mainland), name);
   }
   for (const PairString& string : pairs)
     if (const auto label = static_cast<std::int64_t>(names.parts.size()) + string.curve + 1;
-        kind_of(label, names) != nullptr && kind_of(label, names)->weir_height)
+        dialect.has_weirs && kind_of(label, names) != nullptr && kind_of(label, names)->weir_height)
       land.add(string, names.curves[static_cast<std::size_t>(string.curve)], *kind_of(label, names));
   return fmt::format("{} = open boundaries\n{} = points on them\n{}{} = land boundaries\n{} = points on them\n{}",
                      open.segments, open.points, open.text, land.segments, land.points, land.text);
 }
 
-} // namespace
-
-std::vector<FilePlan> plan_adcirc(const ExchangeMesh& mesh, const std::string& path) {
+std::vector<FilePlan> plan(const ExchangeMesh& mesh, const std::string& path, const Dialect& dialect) {
   const std::string& title = mesh.names().regions.size() == 1 ? mesh.names().regions[0] : path;
   return {{path,
            {mesh.once(fmt::format("{}\n{} {}\n", title, mesh.triangles(), mesh.points())),
-            numbered_points(mesh, "", "fort14"),
+            numbered_points(mesh, {"", dialect.word, Height::depth}),
             mesh.triangle_rows([](std::int64_t, GlobalId id, const std::array<GlobalId, 3>& corners, std::string& to) {
               append_line(to, id + 1, std::int64_t{3}, corners[0] + 1, corners[1] + 1, corners[2] + 1);
             }),
-            mesh.once(boundary_text(node_strings(mesh), pair_strings(mesh), mesh))}}};
+            mesh.once(boundary_text(node_strings(mesh), pair_strings(mesh), mesh, dialect))}}};
+}
+
+} // namespace
+
+std::vector<FilePlan> plan_adcirc(const ExchangeMesh& mesh, const std::string& path) {
+  return plan(mesh, path, fort14);
+}
+
+std::vector<FilePlan> plan_schism(const ExchangeMesh& mesh, const std::string& path) {
+  return plan(mesh, path, gr3);
 }
 
 } // namespace trime::formats

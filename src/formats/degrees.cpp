@@ -28,21 +28,27 @@ void check_degrees(const Names& names) {
                       "the files have the coordinates of the mesh");
 }
 
-io::TextRows numbered_points(const ExchangeMesh& mesh, const std::string& start, const char* format) {
+io::TextRows numbered_points(const ExchangeMesh& mesh, const PointStyle& style) {
+  const auto height = [&depth = mesh.mesh().depth, is_depth = style.height == Height::depth](std::int64_t row) {
+    const double value = depth ? (*depth)[static_cast<std::size_t>(row)] : 0.0;
+    return is_depth || value == 0 ? value : -value; // no -0
+  };
   if (!mesh.names().in_degrees)
-    return mesh.point_rows([start](std::int64_t, GlobalId id, geometry::Vec2 p, std::string& to) {
-      to += start;
-      append_line(to, id + 1, p.x, p.y, 0.0);
-    });
+    return mesh.point_rows(
+        [start = style.start, height](std::int64_t row, GlobalId id, geometry::Vec2 p, std::string& to) {
+          to += start;
+          append_line(to, id + 1, p.x, p.y, height(row));
+        });
   check_degrees(mesh.names()); // all ranks find the same
   const auto places =
       std::make_shared<std::vector<geometry::Vec2>>(mesh.mesh().points.begin(), mesh.mesh().points.end());
-  comm::run_agreed(mesh.comm(), [&] { to_degrees(*places, mesh.names().crs, format); });
-  return mesh.point_rows([start, places](std::int64_t row, GlobalId id, geometry::Vec2, std::string& to) {
-    const geometry::Vec2 p = (*places)[static_cast<std::size_t>(row)];
-    to += start;
-    append_line(to, id + 1, p.x, p.y, 0.0);
-  });
+  comm::run_agreed(mesh.comm(), [&] { to_degrees(*places, mesh.names().crs, style.format); });
+  return mesh.point_rows(
+      [start = style.start, height, places](std::int64_t row, GlobalId id, geometry::Vec2, std::string& to) {
+        const geometry::Vec2 p = (*places)[static_cast<std::size_t>(row)];
+        to += start;
+        append_line(to, id + 1, p.x, p.y, height(row));
+      });
 }
 
 } // namespace trime::formats

@@ -14,10 +14,21 @@ namespace trime::formats {
 /// @throws FileError if a place has none
 void to_degrees(std::vector<geometry::Vec2>& places, const std::string& crs, const char* format);
 
-/// Returns rows of the points in the coordinates that Names::in_degrees asks for: "ID x y 0" behind a `start`.
+/// What the third number of a point is: positive downwards or upwards.
+enum class Height { depth, elevation };
+
+/// How a format writes a point.
+struct PointStyle {
+  std::string start;  ///< text before the number of the point
+  const char* format; ///< word of the format, for messages
+  Height height;
+};
+
+/// Returns rows of the points in the coordinates that Names::in_degrees asks for: "ID x y z" behind a `start`. Without
+/// depths, z is 0.
 /// @throws ConfigError if degrees are wanted and the reference system is unknown; FileError as to_degrees(); both on
 /// all ranks @note Collective.
-io::TextRows numbered_points(const ExchangeMesh& mesh, const std::string& start, const char* format);
+io::TextRows numbered_points(const ExchangeMesh& mesh, const PointStyle& style);
 
 /// Refuses degrees where the reference system of the mesh is unknown. @throws ConfigError
 void check_degrees(const Names& names);

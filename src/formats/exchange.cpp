@@ -25,6 +25,9 @@ constexpr FormatInfo table[] = {
     {Format::vtu, "vtu", ".vtu", false, true, plan_vtu},
     {Format::sms, "2dm", ".2dm", false, false, plan_sms},
     {Format::adcirc, "fort14", ".14", false, false, plan_adcirc},
+    {Format::schism, "gr3", ".gr3", false, false, plan_schism},
+    {Format::telemac, "slf", ".slf", false, false, plan_telemac},
+    {Format::su2, "su2", ".su2", false, false, plan_su2},
     {Format::geojson, "geojson", ".geojson", false, true, plan_geojson},
     {Format::abaqus, "abaqus", ".inp", false, false, plan_abaqus},
     {Format::exodus, "exodus", ".exo", false, true, plan_exodus},
@@ -87,6 +90,8 @@ std::string words_of(bool FormatInfo::*property, const char* last) {
 }
 
 std::vector<std::string> paths_of(Format format, const std::string& path) {
+  if (format == Format::telemac)
+    return {path, (ends_with(path, ".slf") ? path.substr(0, path.size() - 4) : path) + ".cli"};
   if (format != Format::triangle)
     return {path};
   const std::string stem = ends_with(path, ".node") ? path.substr(0, path.size() - 5) : path;

@@ -111,6 +111,9 @@ std::vector<FilePlan> plan_triangle(const ExchangeMesh& mesh, const std::string&
 std::vector<FilePlan> plan_vtu(const ExchangeMesh& mesh, const std::string& path);
 std::vector<FilePlan> plan_sms(const ExchangeMesh& mesh, const std::string& path);
 std::vector<FilePlan> plan_adcirc(const ExchangeMesh& mesh, const std::string& path);
+std::vector<FilePlan> plan_schism(const ExchangeMesh& mesh, const std::string& path);
+std::vector<FilePlan> plan_su2(const ExchangeMesh& mesh, const std::string& path);
+std::vector<FilePlan> plan_telemac(const ExchangeMesh& mesh, const std::string& path);
 std::vector<FilePlan> plan_geojson(const ExchangeMesh& mesh, const std::string& path);
 std::vector<FilePlan> plan_abaqus(const ExchangeMesh& mesh, const std::string& path);
 std::vector<FilePlan> plan_exodus(const ExchangeMesh& mesh, const std::string& path);

@@ -94,7 +94,29 @@ void append_strings(std::vector<Edge> loop, std::vector<NodeString>& strings) {
   }
 }
 
+BoundaryRing ring_of(std::vector<Edge> loop) {
+  const auto height = [](const Edge& edge) { return edge.place.x + edge.place.y; };
+  std::rotate(loop.begin(), std::ranges::min_element(loop, {}, height), loop.end());
+  BoundaryRing ring{signed_area(loop) < 0, {}, {}};
+  for (const Edge& edge : loop) {
+    ring.points.push_back(edge.first);
+    ring.labels.push_back(edge.label);
+  }
+  return ring;
+}
+
 } // namespace
+
+std::vector<BoundaryRing> boundary_rings(const ExchangeMesh& mesh) {
+  const std::vector<Edge> edges = gather_edges(mesh);
+  std::vector<BoundaryRing> rings;
+  comm::run_agreed(mesh.comm(), [&] {
+    for (std::vector<Edge>& loop : loops_of(edges))
+      rings.push_back(ring_of(std::move(loop)));
+    std::ranges::stable_sort(rings, {}, &BoundaryRing::is_island);
+  });
+  return rings;
+}
 
 std::vector<NodeString> node_strings(const ExchangeMesh& mesh) {
   const std::vector<Edge> edges = gather_edges(mesh);

@@ -18,6 +18,17 @@ struct NodeString {
 /// ranks. Cost: O(edges log edges) on rank 0. Collective.
 std::vector<NodeString> node_strings(const ExchangeMesh& mesh);
 
+/// A loop of the boundary.
+struct BoundaryRing {
+  bool is_island = false;           ///< true if it surrounds a hole
+  std::vector<GlobalId> points;     ///< in order, the mesh on their left; begins with the point of the lowest x + y
+  std::vector<std::int64_t> labels; ///< label of the edge from each point to the next one
+};
+
+/// Returns the rings on rank 0, those around holes behind the others, otherwise ordered by their lowest points; returns
+/// an empty list on other ranks. Cost: O(edges log edges) on rank 0. Collective.
+std::vector<BoundaryRing> boundary_rings(const ExchangeMesh& mesh);
+
 /// Pairs of points on both sides of a path of a curve that is split.
 struct PairString {
   std::int32_t curve = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // 2DM of Aquaveo's SMS, which QGIS (MDAL), Telemac's and SRH-2D's tools read: elements with their region as material,
-// points at height 0, and a node string for each run of boundary edges of one part. The name of the mesh lists the
+// points at their height, and a node string for each run of boundary edges of one part. The name of the mesh lists the
 // names.
 #include "formats/degrees.hpp"
 #include "formats/node_strings.hpp"
@@ -52,7 +52,7 @@ std::vector<FilePlan> plan_sms(const ExchangeMesh& mesh, const std::string& path
                   to += "E3T ";
                   append_line(to, id + 1, corners[0] + 1, corners[1] + 1, corners[2] + 1, mesh.region(row));
                 }),
-            numbered_points(mesh, "ND ", "2dm"), mesh.once(string_lines(node_strings(mesh)))}}};
+            numbered_points(mesh, {"ND ", "2dm", Height::elevation}), mesh.once(string_lines(node_strings(mesh)))}}};
 }
 
 } // namespace trime::formats

@@ -130,6 +130,8 @@ void write_fields(SlabFile& file, const std::string& cells, const std::string& p
   file.slab(stored<std::int32_t>(points + "/boundary", mesh.point_slab, 0, mesh.boundary));
   file.slab(stored<float>(points + "/size", mesh.point_slab, 0, mesh.size));
   file.slab(stored<std::uint8_t>(points + "/fixed", mesh.point_slab, 0, mesh.fixed));
+  if (mesh.depth)
+    file.slab(stored<double>(points + "/depth", mesh.point_slab, 0, *mesh.depth));
 }
 
 void write_vtkhdf(SlabFile& file, const mesh::DistributedMesh& mesh) {
@@ -280,7 +282,8 @@ bool has_plain_mesh(const MeshFileOptions& options) {
 /// Size of the file, a little too large.
 std::int64_t file_bytes(const MeshFileOptions& options, const mesh::DistributedMesh& mesh, const Metadata& metadata) {
   const std::int64_t vtkhdf = options.vtkhdf ? 1 : 0, plain = has_plain_mesh(options) ? 1 : 0;
-  const std::int64_t per_point = 9 + 24 * vtkhdf + 16 * plain, per_triangle = 12 + 33 * vtkhdf + 24 * plain;
+  const std::int64_t per_point = 9 + 24 * vtkhdf + 16 * plain + (mesh.depth ? 8 : 0),
+                     per_triangle = 12 + 33 * vtkhdf + 24 * plain;
   constexpr std::int64_t headers = 64 << 10, per_facet = 32, per_line = 20, per_inner_edge = 56, per_pair = 24;
   std::int64_t bytes =
       headers + per_point * mesh.point_slab.total + per_triangle * mesh.triangle_slab.total +
@@ -326,6 +329,8 @@ void check_shapes(const mesh::DistributedMesh& mesh) {
   TRIME_ASSERT(mesh.boundary.size() == points && mesh.size.size() == points && mesh.fixed.size() == points,
                "the arrays of points have different lengths: {} points, {} boundary, {} size, {} fixed", points,
                mesh.boundary.size(), mesh.size.size(), mesh.fixed.size());
+  TRIME_ASSERT(!mesh.depth || mesh.depth->size() == points, "expected a depth for each of {} points, found {}", points,
+               mesh.depth->size());
   TRIME_ASSERT(mesh.alpha.size() == triangles && mesh.beta.size() == triangles &&
                    (mesh.region.empty() || mesh.region.size() == triangles),
                "the arrays of triangles have different lengths: {} triangles, {} alpha, {} beta, {} region", triangles,
@@ -402,7 +407,8 @@ WrittenFiles write_mesh(const MeshFileOptions& options, const mesh::DistributedM
                             lines,
                             0,
                             has_inner_edges(mesh),
-                            has_regions(of_root)};
+                            has_regions(of_root),
+                            mesh.depth.has_value()};
   WrittenFiles written;
   comm::run_agreed(comm, [&] {
     if (temporary)

@@ -175,6 +175,19 @@ GridAxis NetcdfGrid::axis(int dimension) const {
   return axis_of(at, fmt::format("the coordinates '{}' of {}", name, path_));
 }
 
+namespace {
+
+/// What the NetCDF library writes where a program has written no integer, and the variable has no `_FillValue`
+/// (NC_FILL_SHORT and so on, NetCDF user's guide, "Fill values"). Those of floating-point numbers are above 1e30.
+double default_fill(std::size_t bytes, bool is_unsigned) {
+  const double range = std::ldexp(1.0, 8 * static_cast<int>(bytes)); // number of values
+  if (is_unsigned)
+    return bytes == 8 ? range - 2 : range - 1;
+  return bytes == 8 ? 2 - range / 2 : 1 - range / 2;
+}
+
+} // namespace
+
 void NetcdfGrid::read_attributes() {
   const std::string action = "read the attributes of " + what();
   const std::vector<double> scale = numbers_of(values_, "scale_factor", action);
@@ -186,6 +199,8 @@ void NetcdfGrid::read_attributes() {
       missing_.push_back(value);
   const Hdf5Type type(H5Dget_type(values_), action);
   const std::size_t bytes = H5Tget_size(type);
+  if (missing_.empty() && H5Tget_class(type) == H5T_INTEGER && bytes >= 2)
+    missing_.push_back(default_fill(bytes, H5Tget_sign(type) == H5T_SGN_NONE));
   fits_single_ = scale_ == 1 && offset_ == 0 && bytes <= (H5Tget_class(type) == H5T_FLOAT ? 4U : 2U);
 }
 

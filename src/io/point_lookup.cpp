@@ -23,7 +23,7 @@ PointLookup::PointLookup(const mesh::DistributedMesh& mesh, std::vector<GlobalId
     std::vector<MeshPoint> points;
     for (const GlobalId id : comm::from_bytes<GlobalId>(question.data)) {
       const auto k = static_cast<std::size_t>(id - mesh.point_slab.first);
-      points.push_back({mesh.points.at(k), static_cast<double>(mesh.size.at(k))});
+      points.push_back({mesh.points.at(k), static_cast<double>(mesh.size.at(k)), mesh.depth ? mesh.depth->at(k) : 0.0});
     }
     answers.push_back({question.peer, comm::to_bytes(std::span<const MeshPoint>(points))});
   }

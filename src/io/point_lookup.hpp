@@ -9,13 +9,14 @@
 
 namespace trime::io {
 
-/// The position of a point, and the target edge length there.
+/// The position of a point, and the target edge length and the depth there.
 struct MeshPoint {
   geometry::Vec2 position;
   double size = 0;
+  double depth = 0; ///< 0 if the mesh has no depths
 };
 
-/// @brief Fetches points from the ranks that hold them, and stores them. Memory: 32 bytes per different id.
+/// @brief Fetches points from the ranks that hold them, and stores them. Memory: 40 bytes per different id.
 class PointLookup {
 public:
   /// @param wanted global ids of points of the mesh, in any order, possibly repeated

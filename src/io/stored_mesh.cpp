@@ -100,6 +100,8 @@ private:
     read_rows(field("PointData", "boundary"), H5T_NATIVE_INT32, 0, mesh.point_slab, mesh.boundary);
     read_rows(field("PointData", "size"), H5T_NATIVE_FLOAT, 0, mesh.point_slab, mesh.size);
     read_rows(field("PointData", "fixed"), H5T_NATIVE_UINT8, 0, mesh.point_slab, mesh.fixed);
+    if (const std::string depth = field("PointData", "depth"); file_.has(depth))
+      read_rows(depth, H5T_NATIVE_DOUBLE, 0, mesh.point_slab, mesh.depth.emplace());
   }
 
   void read_triangles(mesh::DistributedMesh& mesh, std::vector<std::array<GlobalId, 3>>& triangles) const {

@@ -73,6 +73,8 @@ std::string grid(const XdmfContent& content, const std::string& extra) {
     std::swap(fields[0], fields[2]);
   for (const Field& field : fields)
     text += attribute(content, field);
+  if (content.has_depth)
+    text += attribute(content, {"depth", "Node", "Float", 8});
   return text + "</Grid>";
 }
 

@@ -18,6 +18,7 @@ struct XdmfContent {
   bool has_inner_lines = false; ///< whether `lines` counts all labelled edges, which are listed in /Mesh/lines;
                                 ///< otherwise they are those of /Mesh/facets
   bool has_regions = false;     ///< whether the mesh has more than one region
+  bool has_depth = false;       ///< whether the points have depths
 };
 
 /// Returns the text for one mesh.

@@ -79,6 +79,7 @@ private:
   void number_points();
   void ask_for_edges();
   void place_points(mesh::DistributedMesh& made) const;
+  void interpolate_depths(mesh::DistributedMesh& made) const;
   std::vector<float> sizes_of_facets() const;
   void divide_facets(mesh::DistributedMesh& made) const;
   std::vector<InnerEdge> halves(const std::vector<InnerEdge>& edges) const;
@@ -94,22 +95,25 @@ private:
   const Middles middles_;
   GlobalId first_ = 0;                  // id of the first new point of this rank
   std::vector<GlobalId> ids_;           // new ids of the local points
-  std::vector<double> sizes_;           // of the local points
+  std::vector<double> sizes_, depths_;  // of the local points; without depths: 0
   std::vector<GlobalId> foreign_edges_; // ids of the points on edges of other ranks, from the first such edge on; -1 if
                                         // no triangle of this rank has the edge
 };
 
 void Refiner::number_points() {
   first_ = mesh_.point_slab.first + comm_.exclusive_scan(edges_.owned());
-  std::vector<double> values(2 * local_.points.size()); // ids below 2^53 are exact
+  constexpr std::size_t columns = 3;
+  std::vector<double> values(columns * local_.points.size()); // ids below 2^53 are exact
   for (LocalIndex p = 0; p < local_.owned_points; ++p) {
-    values[2 * at(p)] = static_cast<double>(first_ + static_cast<GlobalId>(slot_of_point(p)));
-    values[2 * at(p) + 1] = mesh_.size[at(p)];
+    values[columns * at(p)] = static_cast<double>(first_ + static_cast<GlobalId>(slot_of_point(p)));
+    values[columns * at(p) + 1] = mesh_.size[at(p)];
+    values[columns * at(p) + 2] = mesh_.depth ? (*mesh_.depth)[at(p)] : 0;
   }
-  handover::update_ghosts(comm_, local_, values, 2);
+  handover::update_ghosts(comm_, local_, values, columns);
   for (std::size_t p = 0; p < local_.points.size(); ++p) {
-    ids_.push_back(static_cast<GlobalId>(values[2 * p]));
-    sizes_.push_back(values[2 * p + 1]);
+    ids_.push_back(static_cast<GlobalId>(values[columns * p]));
+    sizes_.push_back(values[columns * p + 1]);
+    depths_.push_back(values[columns * p + 2]);
   }
   ask_for_edges();
 }
@@ -172,6 +176,18 @@ void Refiner::place_points(mesh::DistributedMesh& made) const {
     made.size[slot] = static_cast<float>(0.25 * (sizes_[at(edges_.lower(edge))] + sizes_[at(edges_.upper(edge))]));
     made.fixed[slot] = 0;
   });
+  if (mesh_.depth)
+    interpolate_depths(made);
+}
+
+/// A new point has the mean depth of the ends of its edge: the depth stays the same function on the triangles.
+void Refiner::interpolate_depths(mesh::DistributedMesh& made) const {
+  UnsetVector<double>& depth = made.depth.emplace();
+  depth.resize(made.points.size());
+  for (LocalIndex p = 0; p < local_.owned_points; ++p)
+    depth[slot_of_point(p)] = depths_[at(p)];
+  for (LocalIndex edge = 0; edge < edges_.owned(); ++edge)
+    depth[slot_of_edge(edge)] = 0.5 * (depths_[at(edges_.lower(edge))] + depths_[at(edges_.upper(edge))]);
 }
 
 /// Returns the sizes that the user asked for, by owned edge; 0 inside. They come to the owners of the lower ends. Each

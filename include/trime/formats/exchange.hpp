@@ -20,7 +20,7 @@ class ExchangeMesh;
 struct FilePlan;
 
 /// The output formats. vtkhdf and xdmf describe the arrays of NAME.h5 for other readers, text has the files of TriMe++,
-/// gmsh is MSH 4.1, gmsh2 MSH 2.2, sms is .2dm.
+/// gmsh is MSH 4.1, gmsh2 MSH 2.2, sms is .2dm, schism is hgrid.gr3, telemac is Selafin with its boundary conditions.
 enum class Format {
   vtkhdf,
   xdmf,
@@ -33,6 +33,9 @@ enum class Format {
   vtu,
   sms,
   adcirc,
+  schism,
+  telemac,
+  su2,
   geojson,
   abaqus,
   exodus

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -31,6 +32,9 @@ struct DistributedMesh {
   UnsetVector<std::int32_t> boundary; ///< tag of the boundary loop on which the point lies; 0 inside
   UnsetVector<float> size;            ///< target edge length h at the point
   UnsetVector<std::uint8_t> fixed;    ///< 1 for corners, nodes of curves and the user's fixed points
+  /// Depth of the water or of the ground at the point, positive downwards, for coastal models. All ranks have this
+  /// array or none has it. It belongs neither to the triangulation nor to the hash.
+  std::optional<UnsetVector<double>> depth;
 
   // Arrays with one entry for each triangle. Vertices are counter-clockwise, the one with the lowest global id first.
   // See global_id and triangle_ids.

@@ -1,0 +1,186 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Tests the files for coastal models (gr3, slf with cli, fort14, 2dm) and for SU2, with depths from data."""
+import json
+import unittest
+
+import h5py
+import numpy as np
+
+from check_test import check, check_damaged
+from coast_readers import Gr3, Slf, Su2
+from fields_test import write_ascii
+from format_readers import Expected, rows
+from trime_run import WorkspaceCase, run
+
+INCOMPLETE = 5
+# A bay with an open side, and an island in it.
+LINES = {"coast": [[1, 1], [0, 1], [0, 0], [1, 0]], "open sea": [[1, 0], [1, 1]],
+         "island": [[0.4, 0.4], [0.6, 0.4], [0.6, 0.6], [0.4, 0.6], [0.4, 0.4]]}
+CONFIG = """[shape]
+geometry = bay
+[shape.bay]
+type = contour
+file = bay.geojson
+attribute = kind
+[field.elevation]
+file = ground.asc
+[meshing]
+points = 800
+[output]
+formats = vtkhdf xdmf gr3 slf fort14 2dm su2
+depth = 1 - elevation
+overwrite = true
+"""
+FILES = ["bay.gr3", "bay.slf", "bay.cli", "bay.14", "bay.2dm", "bay.su2"]
+
+
+def elevation(points):
+    """What the raster holds, which is bilinear."""
+    return -30 * points[:, 0] - 5 + 2 * points[:, 1]
+
+
+class CoastFormats(WorkspaceCase):
+    def setUp(self):
+        super().setUp()
+        (self.directory / "bay.geojson").write_text(json.dumps({"type": "FeatureCollection", "features": [
+            {"type": "Feature", "properties": {"kind": kind}, "geometry": {"type": "LineString", "coordinates": line}}
+            for kind, line in LINES.items()]}))
+        (self.directory / "bay.ini").write_text(CONFIG + f"directory = {self.directory}\n")
+        centres = np.arange(6) * 0.25 - 0.125
+        write_ascii(self.directory / "ground.asc",
+                    [elevation(np.column_stack([centres, np.full(6, y)])).tolist() for y in centres],
+                    corner=(-0.25, -0.25), cell=0.25)
+
+    def mesh(self, *overrides, ranks=1, threads=1):
+        done = run(self.directory / "bay.ini", *overrides, ranks=ranks, threads=threads)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        return done
+
+    def files(self):
+        """Their bytes; the first line of some names the path."""
+        return {name: (self.directory / name).read_bytes() for name in FILES}
+
+    def test_each_format_holds_the_mesh(self):
+        done = self.mesh(ranks=2)
+        self.assertRegex(done.stdout, r"gr3: open boundary: bay\.open sea; land boundary: bay\.coast, bay\.island")
+        expected = Expected(self.directory / "bay.h5")
+        depth = 1 - elevation(expected.points)
+        with h5py.File(self.directory / "bay.h5") as file:
+            np.testing.assert_allclose(file["VTKHDF/PointData/depth"][:], depth, rtol=1e-9)
+        gr3, slf, su2 = Gr3(self.directory / "bay.gr3"), Slf(self.directory / "bay.slf"), Su2(self.directory / "bay.su2")
+        for read in (gr3, slf, su2):
+            np.testing.assert_array_equal(read.points, expected.points)
+            np.testing.assert_array_equal(read.triangles, expected.triangles)
+        np.testing.assert_allclose(gr3.depth, depth, rtol=1e-9)
+        np.testing.assert_array_equal(slf.values[0], -gr3.depth)
+        self.assertEqual([name.split() for name in slf.variables], [[b"BOTTOM", b"M"]])
+        fort14 = (self.directory / "bay.14").read_text().splitlines()[2:2 + len(depth)]
+        self.assertEqual([float(line.split()[3]) for line in fort14], gr3.depth.tolist())
+        heights = [float(line.split()[4]) for line in (self.directory / "bay.2dm").read_text().splitlines()
+                   if line.startswith("ND ")]
+        self.assertEqual(heights, (-gr3.depth).tolist())
+        self.compare_boundaries(expected, gr3, slf, su2)
+
+    def compare_boundaries(self, expected, gr3, slf, su2):
+        self.assertEqual([name for name, _, _ in gr3.open], ["bay.open sea"])
+        self.assertEqual(sorted((name, kind) for name, kind, _ in gr3.land), [("bay.coast", 0), ("bay.island", 1)])
+        edges, labels = [], []
+        for name, kind, points in gr3.open + gr3.land:
+            ring = points + points[:1] if kind == 1 else points # without its first point at the end
+            edges += list(zip(ring, ring[1:]))
+            labels += [expected.parts[name]] * (len(ring) - 1)
+        self.assertEqual(rows(np.array(edges), labels), expected.rim_rows())
+        parts = {name.replace(" ", "_").replace(".", "_"): label for name, label in expected.parts.items()}
+        found = [(edge, parts[name]) for name, marked in su2.markers.items() for edge in marked]
+        self.assertEqual(rows(np.array([edge for edge, _ in found]), [label for _, label in found]),
+                         expected.rim_rows())
+        # Rings: the outer one first, from the lowest x + y, then the island; the mesh lies on the left of both.
+        np.testing.assert_array_equal(slf.number[slf.rim], np.arange(len(slf.rim)) + 1)
+        self.assertEqual(np.count_nonzero(slf.number), len(slf.rim))
+        outer = next(k for k in range(len(slf.rim)) if abs(slf.points[slf.rim[k]] - 0.5).max() < 0.2)
+        rings = [slf.rim[:outer], slf.rim[outer:]]
+        self.assertEqual(rows(np.array([(a, b) for ring in rings for a, b in zip(ring, np.roll(ring, -1))]),
+                              np.zeros(len(slf.rim), int)), rows(expected.rim, np.zeros(len(expected.rim), int)))
+        self.assertEqual(slf.points[slf.rim[0]].tolist(), [0, 0])
+        is_open = np.isin(slf.rim, expected.rim[expected.labels == expected.parts["bay.open sea"]])
+        self.assertEqual({tuple(code) for code in slf.codes[is_open]}, {(5, 4, 4, 4)})
+        self.assertEqual({tuple(code) for code in slf.codes[~is_open]}, {(2, 2, 2, 2)})
+
+    def test_the_bytes_do_not_depend_on_ranks(self):
+        self.mesh()
+        expected = self.files()
+        for ranks, threads in ((2, 1), (3, 2), (7, 1)):
+            self.mesh(ranks=ranks, threads=threads)
+            self.assertEqual(self.files(), expected)
+        for name in (name for name in FILES if name != "bay.cli"):
+            (self.directory / "again").mkdir(exist_ok=True)
+            done = run("convert", self.directory / "bay.h5", self.directory / "again" / name, ranks=2)
+            self.assertEqual(done.returncode, 0, done.stderr)
+        for name in FILES:
+            again = (self.directory / "again" / name).read_bytes()
+            if name.endswith((".gr3", ".14")): # the first line is the path
+                again, expected[name] = (text.split(b"\n", 1)[1] for text in (again, expected[name]))
+            self.assertEqual(again, expected[name], name)
+
+    def test_the_checker_reads_depths_and_finds_bad_ones(self):
+        self.mesh("output.formats=vtkhdf xdmf")
+        self.assertIn("depth", (self.directory / "bay.xdmf").read_text())
+        path = self.directory / "bay.h5"
+        self.assertEqual(check(path)[0], 0)
+
+        def damage(file):
+            file["VTKHDF/PointData/depth"][7] = np.nan
+
+        code, said = check_damaged(path, self.directory / "bad.h5", damage)
+        self.assertNotEqual(code, 0)
+        self.assertIn("depth_array", said)
+
+    def test_refine_keeps_the_depth_on_triangles(self):
+        self.mesh("output.formats=vtkhdf")
+        done = run("refine", self.directory / "bay.h5", self.directory / "fine.h5", ranks=3)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with h5py.File(self.directory / "fine.h5") as file:
+            points, depth = file["VTKHDF/Points"][:, :2], file["VTKHDF/PointData/depth"][:]
+        np.testing.assert_allclose(depth, 1 - elevation(points), rtol=1e-9)
+
+    def test_courant_numbers(self):
+        """sqrt(9.81 depth) time_step / shortest edge, by NumPy; the same on all ranks."""
+        said = set()
+        for ranks in (1, 3):
+            done = self.mesh("output.formats=vtkhdf xdmf", "output.time_step=0.002", "output.courant=1.1", ranks=ranks)
+            said.add(next(line for line in done.stdout.splitlines() if line.startswith("Courant")))
+        self.assertEqual(len(said), 1)
+        with h5py.File(self.directory / "bay.h5") as file:
+            points, triangles = file["Mesh/mesh/geometry"][:], file["Mesh/mesh/topology"][:]
+            depth, found = file["VTKHDF/PointData/depth"][:], dict(file["trime_mpi/courant"].attrs)
+        at = points[triangles]
+        shortest = np.linalg.norm(at - np.roll(at, -1, axis=1), axis=2).min(axis=1)
+        number = 0.002 * np.sqrt(9.81 * np.maximum(0, depth[triangles].mean(axis=1))) / shortest
+        self.assertEqual(found["above"], np.count_nonzero(number > 1.1))
+        self.assertTrue(0 < found["above"] < len(number))
+        self.assertAlmostEqual(found["largest"], number.max())
+        centre = at[number.argmax()].mean(axis=0)
+        np.testing.assert_allclose([found["largest_x"], found["largest_y"]], centre)
+        done = run(self.directory / "bay.ini", "output.time_step=1", "output.depth=none")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("needs 'depth'", done.stderr)
+
+    def test_a_depth_that_is_no_number_marks_the_mesh(self):
+        done = run(self.directory / "bay.ini", "output.depth=sqrt(x-0.5)", ranks=2)
+        self.assertEqual(done.returncode, INCOMPLETE, done.stdout + done.stderr)
+        self.assertRegex(done.stdout + done.stderr, "depths")
+
+    def test_bad_formulas_are_refused(self):
+        for formula, said in (("-elevatoin", "elevatoin"), ("1 +", "'depth' in \\[output\\]")):
+            done = run(self.directory / "bay.ini", f"output.depth={formula}", ranks=2)
+            self.assertEqual(done.returncode, 2, done.stdout)
+            self.assertRegex(done.stderr, said)
+
+    def test_a_field_for_the_depth_alone_leaves_the_size_relative(self):
+        done = self.mesh("sizing.type=expression", "sizing.expression=1+x")
+        self.assertNotIn("scale = absolute", done.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
