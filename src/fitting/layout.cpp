@@ -183,8 +183,11 @@ std::unique_ptr<BoundaryRefiner> make_refiner(const LayoutContext& context, std:
                          context.options.features.component_place,
                          generalises(context) ? context.options.features.tolerance : 0};
   const geometry::Boundary& boundary = generalised_curves(context, fitted, stage);
-  const auto curves = std::make_shared<const boundary::LaidCurves>(
-      boundary, inner_curves(context, stage.asked_size(), boundary, fitted.curves), context.fixed.on_curves());
+  const geometry::InnerCurves& inner = inner_curves(context, stage.asked_size(), boundary, fitted.curves);
+  if (fitted.curves.relabelled)
+    stage.curves = fitted.curves.relabelled;
+  const auto curves = std::make_shared<const boundary::LaidCurves>(stage.curves ? *stage.curves : boundary, inner,
+                                                                   context.fixed.on_curves());
   const auto make = [&](const BoundarySizes& sizes) {
     return std::make_unique<BoundaryRefiner>(curves, sizes, context.lattice,
                                              boundary::LayoutRequest{context.options.features.corner_angle,

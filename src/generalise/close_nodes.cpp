@@ -141,7 +141,7 @@ private:
 
 void join_close_nodes(geometry::InnerCurves& curves, const Nodes& nodes, const sizing::SizeField& size,
                       VertexTree& tree) {
-  curves.joined_nodes = NodeJoiner(curves, nodes, size, tree).run();
+  curves.joined_nodes += NodeJoiner(curves, nodes, size, tree).run();
 }
 
 } // namespace trime::generalise

@@ -27,7 +27,7 @@ struct Nodes {
 /// of its ends to the other end. An end stays if it lies on the boundary, if it is one of Nodes::kept, or if fewer than
 /// three arcs meet there. Free ends of curves stay, too, and so does the last edge of a curve. Arcs do not cross each
 /// other afterwards: the triangle over which an edge moves holds no vertex. Where two regions touched along the edge,
-/// the other regions around it touch in the node. Sets InnerCurves::joined_nodes, and adds to InnerCurves::losses.
+/// the other regions around it touch in the node. Adds to InnerCurves::joined_nodes and losses.
 /// Cost: O(n log n) for n arcs.
 void join_close_nodes(geometry::InnerCurves& curves, const Nodes& nodes, const sizing::SizeField& size,
                       VertexTree& tree);
