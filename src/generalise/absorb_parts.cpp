@@ -32,8 +32,11 @@ struct Part {
 
 class Absorber {
 public:
-  Absorber(RegionMap& map, std::span<const std::array<int, 2>> pairs, std::vector<geometry::RegionLoss>& losses)
-      : map_(map), mesh_(map.mesh()), pairs_(pairs), losses_(losses), changes_(at(mesh_.triangle_count()), 0) {}
+  /// @param tips nodes at which narrow ends stay, in lexicographic order
+  Absorber(RegionMap& map, std::span<const std::array<int, 2>> pairs, std::span<const geometry::Vec2> tips,
+           std::vector<geometry::RegionLoss>& losses)
+      : map_(map), mesh_(map.mesh()), pairs_(pairs), tips_(tips), losses_(losses),
+        changes_(at(mesh_.triangle_count()), 0) {}
 
   /// Returns whether anything has changed.
   bool run(SmallParts which) {
@@ -133,7 +136,7 @@ private:
     return is_open;
   }
 
-  /// Returns narrow passages, and narrow ends at the boundary.
+  /// Returns narrow passages, narrow ends at the boundary, and thin tips.
   std::vector<Part> necks() {
     find_walls();
     std::vector<char> narrow(changes_.size()), seen(changes_.size(), 0);
@@ -144,15 +147,18 @@ private:
       if (narrow[at(t)] == 0 || seen[at(t)] != 0)
         continue;
       int lids = 0;
+      HalfEdge lid = Triangulation::none;
       Part part{collect(t, seen, [&](HalfEdge e) {
         if (map_.is_wall(e))
           return true;
         const bool is_lid = narrow[at(Triangulation::triangle(mesh_.twin(e)))] == 0;
         lids += is_lid ? 1 : 0;
+        lid = is_lid ? e : lid;
         return is_lid;
       })};
       part.reason = LossReason::sliver;
-      if (lids > 0 && (lids > 1 || meets_boundary(part)) && is_clearly_narrow(part) && !is_held(part)) {
+      if (lids > 0 && (lids > 1 || meets_boundary(part) || is_thin_tip(part, lid)) && is_clearly_narrow(part) &&
+          !is_held(part)) {
         set_area(part);
         parts.push_back(std::move(part));
       }
@@ -165,6 +171,20 @@ private:
       return map_.label_beside(3 * t) == RegionMap::outside || map_.label_beside(3 * t + 1) == RegionMap::outside ||
              map_.label_beside(3 * t + 2) == RegionMap::outside;
     });
+  }
+  /// Is a dead end behind a lid much deeper than wide?
+  bool is_thin_tip(const Part& part, HalfEdge lid) const {
+    const geometry::Segment across{mesh_.point(mesh_.origin(lid)), mesh_.point(mesh_.target(lid))};
+    double deepest = 0;
+    geometry::Vec2 tip;
+    for (const LocalIndex t : part.triangles)
+      for (HalfEdge e = 3 * t; e < 3 * t + 3; ++e)
+        if (const geometry::Vec2 p = mesh_.point(mesh_.origin(e)); squared_distance(p, across) > deepest) {
+          deepest = squared_distance(p, across);
+          tip = p;
+        }
+    return std::sqrt(deepest) * GeneraliseRules::thin_tip > map_.length(lid) &&
+           !std::ranges::binary_search(tips_, tip, geometry::lexicographically_less);
   }
   bool is_clearly_narrow(const Part& part) const {
     for (const LocalIndex t : part.triangles)
@@ -226,6 +246,7 @@ private:
   RegionMap& map_;
   const Triangulation& mesh_;
   const std::span<const std::array<int, 2>> pairs_;
+  const std::span<const geometry::Vec2> tips_;
   std::vector<geometry::RegionLoss>& losses_;
   std::vector<char> changes_; // by triangle
   std::vector<char> on_wall_; // by vertex
@@ -242,7 +263,7 @@ std::optional<Partition> absorb_parts(const geometry::InnerCurves& curves, const
   if (!map.is_valid())
     return std::nullopt;
   std::vector<geometry::RegionLoss> losses;
-  if (!Absorber(map, pairs, losses).run(which))
+  if (!Absorber(map, pairs, request.tips, losses).run(which))
     return std::nullopt;
   Partition made = curves_of_labels(map, curves, boundary);
   made.curves.losses.insert(made.curves.losses.end(), losses.begin(), losses.end());

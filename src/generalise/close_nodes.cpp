@@ -111,6 +111,7 @@ private:
       }
     arms.clear();
     std::erase_if(arms_.at(key(to)), [edge](const Arm& arm) { return arm.arc == edge; });
+    note_loss_of(arcs_[edge]);
     tree_.remove(vertex);
     --arcs_of_[curve(edge)];
     is_gone_[edge] = 1;
@@ -125,6 +126,16 @@ private:
     if (arc.left != arc.right && to_left != 0)
       curves_.losses.push_back({to_left > 0 ? arc.right : arc.left, to_left > 0 ? arc.left : arc.right,
                                 geometry::LossReason::close_nodes, std::fabs(to_left), 1, std::fabs(to_left), from});
+  }
+
+  /// Notes what an arc that goes has taken from its left side before.
+  void note_loss_of(const InnerArc& arc) {
+    if (arc.lost_area == 0)
+      return;
+    const bool left_loses = arc.lost_area > 0;
+    const double area = std::fabs(arc.lost_area);
+    curves_.losses.push_back({left_loses ? arc.left : arc.right, left_loses ? arc.right : arc.left,
+                              geometry::LossReason::thinning, area, 1, area, arc.pieces.front().start});
   }
 
   geometry::InnerCurves& curves_;

@@ -5,8 +5,10 @@
 #include "generalise/rules.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <tuple>
 #include <utility>
 
 namespace trime::generalise {
@@ -52,6 +54,7 @@ std::vector<std::size_t> order_of(const std::vector<Vec2>& places) {
 RegionMap::RegionMap(const geometry::InnerCurves& curves, const geometry::Boundary& boundary, const ArcRequest& request)
     : curves_(curves), boundary_(boundary), request_(request),
       mesh_(box_around(boundary, request.lattice), request.lattice) {
+  find_tips();
   std::vector<Vec2> places; // the two ends of each strand
   for (std::size_t loop = 0; loop < boundary.loops.size(); ++loop)
     add_strands(-1 - static_cast<int>(loop), boundary.loops[loop].pieces, places);
@@ -76,18 +79,64 @@ const Piece& RegionMap::piece(const Strand& strand) const {
                         : curves_.arcs[static_cast<std::size_t>(strand.arc)].pieces[strand.piece];
 }
 
+/// Finds where the sides of thin tips get a vertex, so that the tips can be cut there.
+void RegionMap::find_tips() {
+  for (const geometry::NarrowWedge& wedge : geometry::narrow_wedges(curves_.arcs, boundary_)) {
+    if (std::ranges::binary_search(request_.tips, wedge.node, geometry::lexicographically_less))
+      continue;
+    std::array<Vec2, 2> ways;
+    const std::array<geometry::ArcEnd, 2> ends{wedge.right, wedge.left};
+    std::array<std::size_t, 2> numbers{};
+    for (std::size_t side = 0; side < 2; ++side) {
+      const std::vector<Piece>& pieces = curves_.arcs[ends[side].arc].pieces;
+      numbers[side] = ends[side].at_end ? pieces.size() - 1 : 0;
+      const Piece& piece = pieces[numbers[side]];
+      ways[side] = ends[side].at_end ? piece.start - piece.end : piece.end - piece.start;
+    }
+    const double lengths[] = {geometry::length(ways[0]), geometry::length(ways[1])};
+    const double opening = geometry::length((1 / lengths[0]) * ways[0] - (1 / lengths[1]) * ways[1]);
+    const double reach =
+        GeneraliseRules::cut_tip * sizing::checked_size(request_.size, wedge.node) / std::fmax(opening, 1e-9);
+    for (std::size_t side = 0; side < 2; ++side)
+      if (1.2 * reach < lengths[side])
+        splits_.push_back({ends[side].arc, numbers[side], ends[side].at_end,
+                           request_.lattice.snap(wedge.node + (reach / lengths[side]) * ways[side])});
+  }
+  std::ranges::stable_sort(splits_, [](const Split& a, const Split& b) {
+    return std::tie(a.arc, a.piece, a.at_end) < std::tie(b.arc, b.piece, b.at_end);
+  });
+  const auto overlap = [&](const Split& a, const Split& b) {
+    if (a.arc != b.arc || a.piece != b.piece)
+      return false;
+    const Vec2 start = curves_.arcs[a.arc].pieces[a.piece].start;
+    return squared_length(a.place - start) >= squared_length(b.place - start);
+  };
+  splits_.erase(std::unique(splits_.begin(), splits_.end(), overlap), splits_.end());
+}
+
 void RegionMap::add_strands(int arc, const std::vector<Piece>& pieces, std::vector<Vec2>& places) {
+  auto split = std::ranges::lower_bound(splits_, static_cast<std::size_t>(std::max(0, arc)), {}, &Split::arc);
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     const Piece& piece = pieces[k];
+    places.push_back(piece.start);
+    const auto add = [&](Vec2 end) {
+      if (end == places.back())
+        return;
+      places.push_back(end);
+      strands_.push_back({arc, k, 0, 0});
+      places.push_back(end); // where the next strand begins
+    };
     const double whole = piece.length();
     const int parts = piece.circular
                           ? std::max(1, static_cast<int>(std::ceil(std::fabs(piece.sweep) / GeneraliseRules::arc_step)))
                           : 1;
-    for (int j = 0; j < parts; ++j) {
-      places.push_back(j == 0 ? piece.start : places.back());
-      places.push_back(j + 1 == parts ? piece.end : request_.lattice.snap(piece.point(whole * (j + 1) / parts)));
-      strands_.push_back({arc, k, 0, 0});
-    }
+    for (int j = 1; j < parts; ++j)
+      add(request_.lattice.snap(piece.point(whole * j / parts)));
+    for (; split != splits_.end() && arc >= 0 && split->arc == static_cast<std::size_t>(arc) && split->piece == k;
+         ++split)
+      add(split->place);
+    add(piece.end);
+    places.pop_back();
   }
 }
 

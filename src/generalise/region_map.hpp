@@ -56,6 +56,13 @@ public:
   }
 
 private:
+  /// A further vertex on a straight piece.
+  struct Split {
+    std::size_t arc, piece;
+    bool at_end; ///< near the end of the piece, not near its start
+    geometry::Vec2 place;
+  };
+  void find_tips();
   void add_strands(int arc, const std::vector<geometry::Piece>& pieces, std::vector<geometry::Vec2>& places);
   void insert_vertices(const std::vector<geometry::Vec2>& places);
   void hold_vertices();
@@ -67,6 +74,7 @@ private:
   const ArcRequest& request_;
   Triangulation mesh_;
   std::vector<Strand> strands_; // by mark
+  std::vector<Split> splits_;   // in the order of the arcs
   std::vector<double> size_;    // by vertex
   std::vector<char> held_;      // by vertex
   std::vector<int> labels_;     // by triangle
