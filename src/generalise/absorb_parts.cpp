@@ -262,8 +262,10 @@ std::optional<Partition> absorb_parts(const geometry::InnerCurves& curves, const
   RegionMap map(curves, boundary, request);
   if (!map.is_valid())
     return std::nullopt;
+  if (which == SmallParts::and_necks)
+    map.add_nodes_to_narrow_parts();
   std::vector<geometry::RegionLoss> losses;
-  if (!Absorber(map, pairs, request.tips, losses).run(which))
+  if (!map.is_valid() || !Absorber(map, pairs, request.tips, losses).run(which))
     return std::nullopt;
   Partition made = curves_of_labels(map, curves, boundary);
   made.curves.losses.insert(made.curves.losses.end(), losses.begin(), losses.end());

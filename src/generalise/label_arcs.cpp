@@ -92,21 +92,18 @@ private:
     const std::size_t n = curves_.arcs.size();
     std::vector<char> stays(n, 1);
     std::vector<std::vector<HalfEdge>> edges(n);
-    for (const RegionMap::Strand& strand : map_.strands())
-      if (strand.arc >= 0) {
-        const auto arc = static_cast<std::size_t>(strand.arc);
-        const HalfEdge e = mesh_.find_edge(strand.from, strand.to);
-        const InnerArc& given = curves_.arcs[arc];
-        const bool is_first = mesh_.point(strand.from) == given.pieces.front().start && strand.piece == 0;
-        stays[arc] = stays[arc] != 0 && is_inner(e) && map_.label(Triangulation::triangle(e)) == given.left &&
-                     map_.label_beside(e) == given.right &&
-                     (is_node_[at(strand.from)] != 0) == (is_first && !given.closed);
-        edges[arc].push_back(e);
-      }
+    for (HalfEdge e = 0; e < 3 * mesh_.triangle_count(); ++e) {
+      if (mesh_.mark(e) < 0)
+        continue;
+      const std::size_t number = at(mesh_.mark(e));
+      if (map_.strands()[number].arc < 0)
+        continue;
+      const auto arc = static_cast<std::size_t>(map_.strands()[number].arc);
+      stays[arc] = stays[arc] != 0 && is_as_given(e, number);
+      edges[arc].push_back(e);
+    }
     for (std::size_t k = 0; k < n; ++k) {
       const InnerArc& given = curves_.arcs[k];
-      if (!given.closed && is_node_[at(mesh_.target(edges[k].back()))] == 0)
-        stays[k] = 0;
       if (stays[k] == 0) {
         note_loss(given, made);
         continue;
@@ -115,6 +112,19 @@ private:
       for (const HalfEdge e : edges[k])
         use(e);
     }
+  }
+
+  /// Has an edge of a strand the regions and the nodes that its arc was given? Nodes are only the two ends of an arc.
+  bool is_as_given(HalfEdge e, std::size_t number) const {
+    const std::vector<RegionMap::Strand>& strands = map_.strands();
+    const RegionMap::Strand& strand = strands[number];
+    const InnerArc& given = curves_.arcs[static_cast<std::size_t>(strand.arc)];
+    const bool is_first = number == 0 || strands[number - 1].arc != strand.arc,
+               is_last = number + 1 == strands.size() || strands[number + 1].arc != strand.arc;
+    const bool is_start = !given.closed && is_first && mesh_.origin(e) == strand.from,
+               is_end = !given.closed && is_last && mesh_.target(e) == strand.to;
+    return is_inner(e) && map_.label(Triangulation::triangle(e)) == given.left && map_.label_beside(e) == given.right &&
+           (is_node_[at(mesh_.origin(e))] != 0) == is_start && (is_node_[at(mesh_.target(e))] != 0) == is_end;
   }
 
   /// The new arc has the area that it has; what the old one has lost before is written down.

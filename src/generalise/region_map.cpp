@@ -201,6 +201,47 @@ void RegionMap::set_labels() {
   }
 }
 
+/// Is the third vertex of the triangle of a long edge so near that widths must be measured between more nodes?
+bool RegionMap::wants_node(HalfEdge e) const {
+  const LocalIndex a = mesh_.origin(e), b = mesh_.target(e), apex = mesh_.origin(Triangulation::previous(e));
+  if (!mesh_.is_constrained(e) || strands_[at(mesh_.mark_of_edge(e))].arc < 0 || apex < 4 || is_held(a) || is_held(b) ||
+      label(Triangulation::triangle(e)) == outside)
+    return false;
+  const double width = GeneraliseRules::narrow_region * std::fmin(size(a), size(b));
+  const Vec2 along = mesh_.point(b) - mesh_.point(a), across = mesh_.point(apex) - mesh_.point(a);
+  const double whole = geometry::length(along), place = dot(across, along) / whole,
+               height = cross(along, across) / whole;
+  return whole > GeneraliseRules::node_spacing * width && height < width && place > -height && place < whole + height;
+}
+
+/// Divides an edge in the middle. Returns false if the lattice is too coarse.
+bool RegionMap::add_node(HalfEdge e) {
+  const Vec2 p = request_.lattice.snap(0.5 * (mesh_.point(mesh_.origin(e)) + mesh_.point(mesh_.target(e))));
+  const HalfEdge own = mesh_.mark(e) >= 0 ? e : mesh_.twin(e);
+  if (mesh_.split(own, p) == Triangulation::none)
+    return false;
+  size_.push_back(sizing::checked_size(request_.size, p));
+  held_.push_back(0);
+  return true;
+}
+
+void RegionMap::add_nodes_to_narrow_parts() {
+  for (int round = 0; round < GeneraliseRules::node_rounds; ++round) {
+    std::vector<std::array<LocalIndex, 2>> wanted;
+    for (HalfEdge e = 0; e < 3 * mesh_.triangle_count(); ++e)
+      if (wants_node(e))
+        wanted.push_back({std::min(mesh_.origin(e), mesh_.target(e)), std::max(mesh_.origin(e), mesh_.target(e))});
+    std::sort(wanted.begin(), wanted.end());
+    wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+    bool any = false;
+    for (const auto& [a, b] : wanted)
+      any |= add_node(mesh_.find_edge(a, b));
+    if (!any)
+      break;
+  }
+  set_labels();
+}
+
 double RegionMap::area(LocalIndex t) const {
   const Vec2 a = mesh_.point(mesh_.origin(3 * t));
   return 0.5 * cross(mesh_.point(mesh_.origin(3 * t + 1)) - a, mesh_.point(mesh_.origin(3 * t + 2)) - a);

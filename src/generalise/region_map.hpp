@@ -32,7 +32,11 @@ public:
   /// no other function may be called.
   bool is_valid() const { return valid_; }
   const Triangulation& mesh() const { return mesh_; }
+  /// Returns the strands in the order of the boundary and the arcs. Their numbers are the marks of the edges; a strand
+  /// with further nodes is several edges.
   const std::vector<Strand>& strands() const { return strands_; }
+  /// Adds nodes to straight arcs where another curve is near, so that widths can be measured there.
+  void add_nodes_to_narrow_parts();
   /// Returns the target edge length h at a vertex.
   double size(LocalIndex v) const { return size_[at(v)]; }
   /// Returns whether nothing around the vertex may change.
@@ -63,6 +67,8 @@ private:
     geometry::Vec2 place;
   };
   void find_tips();
+  bool wants_node(HalfEdge e) const;
+  bool add_node(HalfEdge e);
   void add_strands(int arc, const std::vector<geometry::Piece>& pieces, std::vector<geometry::Vec2>& places);
   void insert_vertices(const std::vector<geometry::Vec2>& places);
   void hold_vertices();

@@ -236,29 +236,6 @@ geometry::InnerCurves thin_arcs(const geometry::InnerCurves& curves, const geome
   return thinned;
 }
 
-void debug_areas(const char* when, const Partition& made) { // DEBUG
-  std::map<int, double> area, losses;
-  for (const auto& loop : made.boundary.loops)
-    for (const Piece& p : loop.pieces)
-      area[p.region] += 0.5 * cross(p.start, p.end);
-  for (const InnerArc& arc : made.curves.arcs) {
-    losses[arc.left] += arc.lost_area;
-    losses[arc.right] -= arc.lost_area;
-    for (const Piece& p : arc.pieces) {
-      area[arc.left] += 0.5 * cross(p.start, p.end);
-      area[arc.right] -= 0.5 * cross(p.start, p.end);
-    }
-  }
-  for (const auto& loss : made.curves.losses) {
-    losses[loss.loser] += loss.area;
-    losses[loss.winner] -= loss.area;
-  }
-  fprintf(stderr, "%s:", when);
-  for (auto& [r, a] : area)
-    fprintf(stderr, " %d: %.9g", r, a + losses[r]);
-  fprintf(stderr, "\n");
-}
-
 // Arcs that have merged become simpler, and then further parts may be narrow.
 constexpr int most_rounds = 6;
 
@@ -268,8 +245,6 @@ Partition simplify_partition(const geometry::InnerCurves& curves, const geometry
                              const ArcRequest& request, std::span<const std::array<int, 2>> pairs) {
   std::optional<Partition> large = absorb_parts(curves, boundary, request, pairs, SmallParts::faces);
   Partition made = large ? std::move(*large) : Partition{curves, boundary, false};
-  debug_areas("given", {curves, boundary});
-  debug_areas("faces", made);
   made.curves.on_boundary.clear();
   made.curves.outside.clear();
   std::vector<geometry::NarrowWedge> wedges = geometry::narrow_wedges(made.curves.arcs, made.boundary);
@@ -290,28 +265,13 @@ Partition simplify_partition(const geometry::InnerCurves& curves, const geometry
   made.curves.arcs = smooth_arcs(given, made.boundary, flow, request.lattice);
   for (int round = 0; round < most_rounds; ++round) {
     made.curves = thin_arcs(made.curves, made.boundary, request, given);
-    debug_areas(" thin", made);
     std::optional<Partition> wide = absorb_parts(made.curves, made.boundary, beyond_tips, pairs, SmallParts::and_necks);
     if (!wide)
       break;
     made = std::move(*wide);
     given = made.curves.arcs;
-    debug_areas(" wide", made);
   }
   cut_wedges(made.curves, wedges, made.boundary, request);
-  debug_areas("cut", made);
-  if (getenv("DBGX"))
-    for (const InnerArc& arc : made.curves.arcs) {
-      bool near = false;
-      for (const Piece& p : arc.pieces)
-        near |= std::hypot(p.start.x - atof(getenv("DBGX")), p.start.y - atof(getenv("DBGY"))) < atof(getenv("DBGR"));
-      if (!near)
-        continue;
-      fprintf(stderr, "arc %d|%d closed %d:", arc.left, arc.right, (int)arc.closed);
-      for (const Piece& p : arc.pieces)
-        fprintf(stderr, " (%.6f %.6f)%s", p.start.x, p.start.y, p.corner ? "c" : "");
-      fprintf(stderr, " (%.6f %.6f)\n", arc.pieces.back().end.x, arc.pieces.back().end.y);
-    }
   geometry::set_wedges(made.curves.arcs, made.boundary);
   return made;
 }
