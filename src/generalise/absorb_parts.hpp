@@ -26,13 +26,14 @@ struct Partition {
 };
 
 /// @brief Gives small parts of regions to the region with which they share the longest border. Faces are small if their
-/// perimeter is below GeneraliseRules::smallest_hole or their width below GeneraliseRules::narrowest_face; narrow parts
-/// are found in a triangulation of all curves, as those of the shape are. Two regions between which `pairs` knows no
+/// perimeter is below GeneraliseRules::smallest_face or their width below GeneraliseRules::narrowest_face; narrow parts
+/// are found in a triangulation of all curves, as those of the shape are: passages, ends at the boundary, and thin tips
+/// except at the nodes ArcRequest::tips. Two regions between which `pairs` knows no
 /// interface do not become neighbours. Parts at curves of the user, at arcs of circles and at vertices that must stay
 /// are not changed.
 ///
 /// The curves and the boundary that result share their vertices with the given ones; arcs that are not concerned stay
-/// as they are, in their order. Where an interface no longer meets the boundary, the boundary has no corner any more.
+/// as they are, in their order. Where an interface no longer meets the boundary, the corner of the boundary goes.
 /// Adds to InnerCurves::losses; what the simplification of an arc has taken from its left side before is listed there
 /// as well if the arc changes. Cost: O(n log n) for each of a few rounds.
 /// @param pairs pairs of regions, the lower one first, in ascending order

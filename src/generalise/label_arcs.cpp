@@ -87,7 +87,7 @@ private:
       is_node_[at(v)] = 1;
   }
 
-  /// Takes over the arcs of which no label and no node has changed.
+  /// Takes over the arcs whose labels and nodes have not changed.
   void keep_arcs(geometry::InnerCurves& made) {
     const std::size_t n = curves_.arcs.size();
     std::vector<char> stays(n, 1);

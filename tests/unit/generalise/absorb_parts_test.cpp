@@ -127,7 +127,7 @@ TEST(AbsorbParts, NarrowPassagesAreCut) {
 }
 
 TEST(AbsorbParts, ANarrowEndAtTheBoundaryGoesWithItsCorners) {
-  // Region 1 fills the upper half, but for a gap of 0.02 through which region 0 reaches the upper side.
+  // Region 1 fills the upper half except a gap of 0.02, through which region 0 reaches the upper side.
   const InnerCurves curves{
       {arc_through({{1, 0.5}, {0.51, 0.5}, {0.51, 1}}, 1, 0), arc_through({{0.49, 1}, {0.49, 0.5}, {0, 0.5}}, 1, 0)},
       {}};
