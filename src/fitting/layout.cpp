@@ -197,7 +197,8 @@ std::unique_ptr<BoundaryRefiner> make_refiner(const LayoutContext& context, std:
   if (stage.size->is_uniform() || stage.limited_size ||
       stage.raised_size) // samples of a steep size would lie too far apart
     return make({*stage.size, asked});
-  std::shared_ptr<const SizeSamples>& samples = stage.curves ? fitted.curves.samples : fitted.samples;
+  const bool depends = stage.curves || fitted.curves.inner; // the curves are others at another factor
+  std::shared_ptr<const SizeSamples>& samples = depends ? fitted.curves.samples : fitted.samples;
   if (!samples || !samples->serve(fitted.factor))
     samples = std::make_shared<SizeSamples>(curves->all(), context.relative_size, *stage.scaled_size);
   return make({*stage.size, asked, {*samples, *stage.scaled_size, stage.lowered_size.get(), stage.coarsening}});

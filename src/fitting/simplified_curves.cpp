@@ -156,11 +156,13 @@ const geometry::InnerCurves& inner_curves(const LayoutContext& context, const si
     return given;
   if (!curves.inner || curves.inner_factor != curves.factor) {
     const std::vector<Vec2> kept = kept_places(context);
-    generalise::Partition made = generalise::simplify_partition(
-        given, boundary, {generalised_size(context, asked), context.lattice, kept}, context.domain.regions().pairs);
+    const sizing::ScaledSize size = generalised_size(context, asked);
+    generalise::Partition made =
+        generalise::simplify_partition(given, boundary, {size, context.lattice, kept}, context.domain.regions().pairs);
     curves.inner = std::make_shared<geometry::InnerCurves>(std::move(made.curves));
     curves.relabelled = made.is_relabelled ? std::make_shared<geometry::Boundary>(std::move(made.boundary)) : nullptr;
     curves.inner_factor = curves.factor;
+    curves.samples = nullptr;
   }
   return *curves.inner;
 }
