@@ -237,9 +237,9 @@ void RegionMap::add_nodes_to_narrow_parts() {
     for (const auto& [a, b] : wanted)
       any |= add_node(mesh_.find_edge(a, b));
     if (!any)
-      break;
+      return;
+    set_labels(); // of the new triangles, too
   }
-  set_labels();
 }
 
 double RegionMap::area(LocalIndex t) const {
