@@ -26,9 +26,9 @@ struct Partition {
 };
 
 /// @brief Gives small parts of regions to the region with which they share the longest border. Faces are small if their
-/// perimeter is below GeneraliseRules::smallest_face or their width below GeneraliseRules::narrowest_face; narrow parts
+/// perimeter is below GeneraliseRules::smallest_face or their width below GeneraliseRules::narrowest_face. Narrow parts
 /// are found in a triangulation of all curves, as those of the shape are: passages, ends at the boundary, and thin tips
-/// except at the nodes ArcRequest::tips. Two regions between which `pairs` knows no
+/// (but not at the nodes ArcRequest::tips). Two regions between which `pairs` knows no
 /// interface do not become neighbours. Parts at curves of the user, at arcs of circles and at vertices that must stay
 /// are not changed.
 ///
