@@ -19,6 +19,7 @@ trime_test_packages=(
   libmpfr-dev libgmp-dev                          # oracle of the elementary functions
   hdf5-tools python3-vtk9 python3-meshio          # h5diff, and two foreign readers of the mesh file
   python3-gmsh python3-dolfinx freefem++ dolfin-bin # readers of the formats of other programs
+  calculix-ccx                                    # a solver that reads .inp
   python3-mpi4py                                  # Python programs that mpirun starts
   python3-qgis qgis-providers                     # reads .2dm; 99 packages, 424 MB: without it one test is skipped
   gdal-bin python3-gdal                           # reads and writes maps: ogr2ogr, ogrinfo; Python too

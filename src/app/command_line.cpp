@@ -16,7 +16,7 @@ namespace {
 
 struct Flags {
   bool help_config = false, version = false, validate = false, dry_run = false, print_config = false, quiet = false,
-       verbose = false, overwrite = false, degrees = false;
+       verbose = false, overwrite = false, degrees = false, all = false;
   std::optional<std::string> threads, level, time_limit;
 };
 
@@ -35,6 +35,7 @@ void declare(CLI::App& app, CommandLine& line, Flags& flags) {
   app.add_flag("--print-config", flags.print_config, "print the config with all defaults, as a complete file");
   app.add_flag("--overwrite", flags.overwrite, "with convert and refine: replace the file OUT if it exists");
   app.add_flag("--degrees", flags.degrees, "with convert: write longitude and latitude into .14 and .2dm");
+  app.add_flag("--all", flags.all, "with info: print whole lists of names, however long");
   app.add_option("--report", line.report, "write the report of the run to this file, as JSON");
   app.add_option("--record", line.report)->group(""); // its name in earlier versions; not in the help
   app.add_option("--threads", flags.threads, "threads per rank: sets parallel.setup_threads and parallel.mesh_threads");
@@ -70,7 +71,7 @@ Action action_of(const CommandLine& line, const Flags& flags) {
 const char* usage_of(Action action) {
   return action == Action::convert  ? "convert IN.h5 OUT.ENDING [--overwrite] [--degrees]"
          : action == Action::refine ? "refine IN.h5 OUT.h5 [--overwrite]"
-                                    : "info FILE.h5";
+                                    : "info FILE.h5 [--all]";
 }
 
 /// The files of convert, info and refine are what a run takes for overrides.
@@ -83,6 +84,9 @@ void take_files(CommandLine& line, const Flags& flags) {
   line.in_degrees = flags.degrees;
   if (flags.degrees && !converts)
     throw ConfigError("'--degrees' belongs to 'trime_mpi convert'; for a run, set output.coordinates=degrees");
+  line.prints_all = flags.all;
+  if (flags.all && line.action != Action::info)
+    throw ConfigError("'--all' belongs to 'trime_mpi info', which prints whole lists with it");
   if (!converts && !refines && line.action != Action::info)
     return;
   line.files = std::exchange(line.overrides, {});
@@ -134,7 +138,7 @@ std::string description() {
          endings() +
          ", see configs/formats.md\n"
          "[mpirun -np RANKS] trime_mpi refine IN.h5 OUT.h5   the mesh with four triangles in place of each one\n"
-         "trime_mpi info FILE.h5   what is in a mesh file";
+         "trime_mpi info FILE.h5 [--all]   what is in a mesh file; --all prints whole lists";
 }
 
 } // namespace

@@ -3,11 +3,13 @@
 
 #include "core/quoted.hpp"
 #include "formats/output_files.hpp"
+#include "io/split_counts.hpp"
 #include "record/groups.hpp"
 #include "trime/core/error.hpp"
 #include "trime/io/mesh_file.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <sstream>
 
@@ -86,16 +88,38 @@ const T& row(const Metadata& metadata, const char* group, const char* name, std:
   return column[k];
 }
 
+/// How many entries of each list are printed: a mesh may have thousands of regions.
+class ListLimit {
+public:
+  explicit ListLimit(bool prints_all) : most_(prints_all ? std::numeric_limits<std::size_t>::max() : 20) {}
+
+  /// Returns how many entries of a list of this length are printed.
+  std::size_t of(std::size_t length) {
+    is_reached_ = is_reached_ || length > most_;
+    return std::min(length, most_);
+  }
+  /// Returns what follows behind a list of this length: nothing if all of it is printed.
+  std::string more(std::size_t length, const char* before, const char* after) const {
+    return length > most_ ? fmt::format("{}and {} more{}", before, length - most_, after) : "";
+  }
+  bool is_reached() const { return is_reached_; } ///< whether a list was longer
+
+private:
+  std::size_t most_;
+  bool is_reached_ = false;
+};
+
 /// Labels of edges, which follow those of the names before.
-std::string labels_text(const char* edges, const std::vector<std::string>& names, std::size_t before) {
+std::string labels_text(const char* edges, const std::vector<std::string>& names, std::size_t before,
+                        ListLimit& limit) {
   std::string text = fmt::format("labels of {} in other formats:", edges);
-  for (std::size_t k = 0; k < names.size(); ++k)
+  for (std::size_t k = 0; k < limit.of(names.size()); ++k)
     text += fmt::format("{} {} {}", k == 0 ? "" : ",", before + k + 1, names[k]);
-  return text + "\n";
+  return text + limit.more(names.size(), ", ", "") + "\n";
 }
 
 /// The loops of each name together: a coast may have thousands of islands.
-std::string boundary_text(const Metadata& metadata) {
+std::string boundary_text(const Metadata& metadata, ListLimit& limit) {
   struct Loops {
     std::int64_t count = 0, edges = 0;
     double length = 0;
@@ -109,36 +133,38 @@ std::string boundary_text(const Metadata& metadata) {
     loops.length += row<double>(metadata, "tags", "edge_length_sum", k);
   }
   std::string text = "\nboundary      kind    loops      edges  length\n";
-  for (const auto& [name, loops] : named)
-    text += fmt::format("{:<13} {:<7} {:>5} {:>10}  {:.6g}\n", name.first, name.second, loops.count, loops.edges,
-                        loops.length);
+  std::size_t left = limit.of(named.size());
+  for (auto row = named.begin(); left > 0; ++row, --left)
+    text += fmt::format("{:<13} {:<7} {:>5} {:>10}  {:.6g}\n", row->first.first, row->first.second, row->second.count,
+                        row->second.edges, row->second.length);
+  text += limit.more(named.size(), "", "\n");
   const auto& parts = tags<std::string>(metadata, "part_name");
-  text += labels_text("boundary edges", parts, 0);
+  text += labels_text("boundary edges", parts, 0, limit);
   std::vector<std::string> inner = io::curve_names(metadata);
   for (const std::string& name : io::interface_names(metadata))
     inner.push_back(name);
-  return inner.empty() ? text : text + labels_text("edges inside", inner, parts.size());
+  return inner.empty() ? text : text + labels_text("edges inside", inner, parts.size(), limit);
 }
 
 /// Numbers of the regions and what they hold; nothing if the mesh has one region.
-std::string regions_text(const Metadata& metadata) {
+std::string regions_text(const Metadata& metadata, ListLimit& limit) {
   if (!io::has_regions(metadata))
     return {};
   const bool has_counts = io::find_group(metadata, "regions") != nullptr; // a file of the library may lack it
   std::string text = fmt::format("\nregion                 number{}\n", has_counts ? "  triangles  area" : "");
   const auto& names = tags<std::string>(metadata, "region_name");
-  for (std::size_t k = 0; k < names.size(); ++k) {
+  for (std::size_t k = 0; k < limit.of(names.size()); ++k) {
     text += fmt::format("{:<21} {:>7}", names[k], row<std::int32_t>(metadata, "tags", "region_id", k));
     if (has_counts)
       text += fmt::format(" {:>10}  {:.6g}", row<std::int64_t>(metadata, "regions", "triangles", k),
                           row<double>(metadata, "regions", "area", k));
     text += "\n";
   }
-  return text;
+  return text + limit.more(names.size(), "", "\n");
 }
 
 /// Returns the table of the areas that regions lost to each other; an empty text if the file has none.
-std::string losses_text(const Metadata& metadata) {
+std::string losses_text(const Metadata& metadata, ListLimit& limit) {
   const char* table = "region_losses";
   if (!io::find_group(metadata, table))
     return {};
@@ -149,12 +175,21 @@ std::string losses_text(const Metadata& metadata) {
   };
   std::string text = "\nlost by               gained by             reason       places  area\n";
   const std::size_t rows = io::column_of<std::string>(metadata, table, "reason").size();
-  for (std::size_t k = 0; k < rows; ++k)
+  for (std::size_t k = 0; k < limit.of(rows); ++k)
     text += fmt::format("{:<21} {:<21} {:<11} {:>7}  {:.6g}, the largest at ({:.9g}, {:.9g})\n", name_of("loser", k),
                         name_of("winner", k), row<std::string>(metadata, table, "reason", k),
                         row<std::int64_t>(metadata, table, "places", k), row<double>(metadata, table, "area", k),
                         row<double>(metadata, table, "largest_x", k), row<double>(metadata, table, "largest_y", k));
-  return text;
+  return text + limit.more(rows, "", "\n");
+}
+
+/// Returns a line about curves that are split; an empty text if there is no such curve.
+std::string splits_text(const io::SplitCounts& splits) {
+  if (splits.pairs == 0)
+    return {};
+  return fmt::format("\nsplit curves  {} pairs of points on {} path{}; {} {}\n", splits.pairs, splits.paths,
+                     splits.paths == 1 ? "" : "s", splits.copies,
+                     splits.copies == 1 ? "point is a copy of another one" : "points are copies of others");
 }
 
 std::string checks_text(const Metadata& metadata) {
@@ -205,7 +240,7 @@ void convert(const CommandLine& line, io::RunFiles* files, const comm::Communica
              mesh.facet_slab.total);
 }
 
-std::string info(const std::string& path, const comm::Communicator& comm) {
+std::string info(const std::string& path, bool prints_all, const comm::Communicator& comm) {
   const Metadata metadata =
       io::read_metadata(path, {"checks", "quality", "tags", "curves", "interfaces", "regions", "region_losses"}, comm);
   std::string text = fmt::format("{}: {} points, {} triangles{}\n", path, value_text(metadata, "points"),
@@ -214,8 +249,12 @@ std::string info(const std::string& path, const comm::Communicator& comm) {
   if (const formats::Names names = names_of(metadata); names.period.x != 0 || names.period.y != 0)
     text += fmt::format("periodic      with sides of {:.9g} and {:.9g} (0: not periodic)\n", names.period.x,
                         names.period.y);
-  text += boundary_text(metadata) + regions_text(metadata) + losses_text(metadata) + checks_text(metadata) +
-          quality_text(metadata);
+  ListLimit limit(prints_all);
+  text += boundary_text(metadata, limit);
+  text += splits_text(io::count_splits(path, comm)) + regions_text(metadata, limit);
+  text += losses_text(metadata, limit) + checks_text(metadata) + quality_text(metadata);
+  if (limit.is_reached())
+    text += fmt::format("\n'trime_mpi info {} --all' prints whole lists\n", path);
   return text + fmt::format("\nmesh hash     {}\n", value_text(metadata, "mesh_hash_hex"));
 }
 

@@ -14,12 +14,11 @@ namespace trime::app {
 /// Does the work of `trime_mpi convert IN OUT`: writes the mesh in the format that belongs to the ending of OUT.
 /// @throws ConfigError, FileError on all ranks
 /// @note Collective.
-/// ranks @note Collective.
 void convert(const CommandLine& line, io::RunFiles* files, const comm::Communicator& comm, Log& log);
 
-/// Returns the text that `trime_mpi info FILE` prints.
+/// Returns the text that `trime_mpi info FILE` prints. Lists with many names are cut unless `prints_all`.
 /// @throws FileError on all ranks
 /// @note Collective.
-std::string info(const std::string& path, const comm::Communicator& comm);
+std::string info(const std::string& path, bool prints_all, const comm::Communicator& comm);
 
 } // namespace trime::app

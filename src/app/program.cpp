@@ -376,7 +376,7 @@ ExitCode run_program(int argc, const char* const* argv, const comm::Communicator
     return ExitCode::done;
   }
   if (line.action == Action::info) {
-    print(comm, info(line.files[0], comm));
+    print(comm, info(line.files[0], line.prints_all, comm));
     return ExitCode::done;
   }
   if (line.action == Action::convert) {

@@ -124,7 +124,7 @@ void BoundaryRefiner::run(std::vector<Cut> cuts) {
   for (rounds_ = 0;; ++rounds_) {
     std::vector<LocalIndex> fresh_sites, fresh_chords;
     for (const Cut& cut : cuts) {
-      if (sites_.size() >= affordable_) {
+      if (places() >= affordable_) {
         overfull_ = true;
         return;
       }
@@ -141,7 +141,7 @@ void BoundaryRefiner::run(std::vector<Cut> cuts) {
     if (cuts.empty())
       cut_doubles(cuts);
   }
-  overfull_ = sites_.size() > affordable_;
+  overfull_ = places() > affordable_;
   if (!overfull_)
     keep_areas();
 }
@@ -186,6 +186,7 @@ void BoundaryRefiner::join_nodes() {
   for (LocalIndex k = 0; k < static_cast<LocalIndex>(sites_.size()); ++k) {
     Site& site = sites_[k];
     if (const auto node = nodes.find({site.position.x, site.position.y}); node != nodes.end()) {
+      doubles_ += node->second < 0 ? 0 : 1;
       node->second = node->second < 0 ? k : node->second;
       site.vertex = node->second;
     }

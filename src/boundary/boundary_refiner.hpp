@@ -86,6 +86,9 @@ private:
   void cut_doubles(std::vector<Cut>& cuts) const;
   bool is_straight(LocalIndex chord) const;
   polygon::InnerChords inner_chords() const;
+  const geometry::Piece* piece_around(const Site& site) const;
+  std::int32_t track_of(const Site& site, const geometry::InnerArc& arc, std::int32_t loss,
+                        polygon::InnerChords& inner) const;
   void look_at_fresh(LocalIndex chord, std::vector<Cut>& cuts) const;
   std::vector<Cut> find_cuts(const std::vector<LocalIndex>& fresh_sites, const std::vector<LocalIndex>& fresh_chords);
   std::vector<LocalIndex> candidates(const std::vector<LocalIndex>& fresh_sites,
@@ -121,6 +124,8 @@ private:
   ChordRecord chord_from(LocalIndex k, polygon::BoundarySite& result) const;
   [[noreturn]] void fail(const Cut& cut) const;
 
+  /// Returns the number of different places of sites: a node is one place for all curves that meet there.
+  std::size_t places() const { return sites_.size() - doubles_; }
   const Site& next(const Site& site) const { return sites_[site.next]; }
   /// Returns t of the end of the chord that starts at `site`; it is larger than t of the start, even beyond the end of
   /// the loop.
@@ -161,6 +166,7 @@ private:
   std::optional<SegmentWatch> watch_; // index of all chords, made after a few rounds
   std::size_t most_sites_ = 0;        // bound above which dividing certainly produces too many sites
   const std::size_t affordable_;      // limit given by the caller
+  std::size_t doubles_ = 0;           // sites at nodes at which another curve has a site already
   bool overfull_ = false;
   LocalIndex halvings_ = 0;
   int rounds_ = 0;

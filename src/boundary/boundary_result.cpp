@@ -61,18 +61,58 @@ std::vector<LocalIndex> BoundaryRefiner::along_loops(std::vector<LocalIndex>& lo
   return order;
 }
 
+/// Returns the piece of a curve on which both chords of a site lie, or the first of two pieces of one circle; nothing
+/// if there is no such piece.
+const geometry::Piece* BoundaryRefiner::piece_around(const Site& site) const {
+  const LoopMetric& metric = metrics_[site.loop];
+  const auto piece_of = [&](const Site& from) {
+    return metric.is_on_one_piece(from.t, end_t(from)) ? &metric.loop().pieces[at(metric.place(from.t).piece)]
+                                                       : nullptr;
+  };
+  const geometry::Piece *before = piece_of(sites_[site.previous]), *after = piece_of(site);
+  if (!before || !after)
+    return nullptr;
+  const bool is_one_circle =
+      before->circular && after->circular && before->center == after->center && before->radius == after->radius;
+  return before == after || is_one_circle ? before : nullptr;
+}
+
+/// Decides how the clean-up may move a site, see InnerChords::track.
+std::int32_t BoundaryRefiner::track_of(const Site& site, const geometry::InnerArc& arc, std::int32_t loss,
+                                       polygon::InnerChords& inner) const {
+  using polygon::InnerChords;
+  if (site.kind != SiteKind::plain || site.previous < 0 || site.next < 0)
+    return InnerChords::held;
+  const geometry::Piece* piece = piece_around(site);
+  if (!piece)
+    return arc.is_simplified ? InnerChords::bent : InnerChords::held;
+  if (!piece->circular)
+    return arc.is_simplified ? InnerChords::bent : InnerChords::straight;
+  if (inner.circles.empty() || inner.circles.back().center != piece->center ||
+      inner.circles.back().radius != piece->radius || inner.circles.back().loss != loss)
+    inner.circles.push_back({piece->center, piece->radius, arc.left, loss});
+  return static_cast<std::int32_t>(inner.circles.size()) - 1;
+}
+
 /// The chords of the curves inside, and their sites that do not lie on the boundary.
 polygon::InnerChords BoundaryRefiner::inner_chords() const {
   polygon::InnerChords inner;
-  std::vector<std::pair<Vec2, std::uint8_t>> sites;
+  struct Record {
+    Vec2 position;
+    std::uint8_t corner;
+    std::int32_t track;
+  };
+  std::vector<Record> sites;
+  auto arcs_with_loss = static_cast<std::int32_t>(curves_->losses().size()); // as losses() lists them
   for (std::size_t loop = boundary_loops_; loop < loop_first_.size(); ++loop) {
+    const geometry::InnerArc& arc = curves_->arc(loop - boundary_loops_);
+    const std::int32_t loss = arc.left == arc.right ? -1 : arcs_with_loss++;
     LocalIndex k = loop_first_[loop];
     do {
       const Site& site = sites_[k];
       if (site.vertex == k) // of several curves' ends the first one
-        sites.emplace_back(site.position, site.kind != SiteKind::plain);
+        sites.push_back({site.position, site.kind != SiteKind::plain, track_of(site, arc, loss, inner)});
       if (site.next >= 0) {
-        const geometry::InnerArc& arc = curves_->arc(loop - boundary_loops_);
         inner.chords.push_back({{site.position, next(site).position},
                                 metrics_[loop].loop().pieces[at(metrics_[loop].place(site.t).piece)].part,
                                 arc.left,
@@ -82,10 +122,11 @@ polygon::InnerChords BoundaryRefiner::inner_chords() const {
     } while (k >= 0 && k != loop_first_[loop]);
   }
   std::sort(sites.begin(), sites.end(),
-            [](const auto& a, const auto& b) { return geometry::lexicographically_less(a.first, b.first); });
-  for (const auto& [position, corner] : sites) {
+            [](const Record& a, const Record& b) { return geometry::lexicographically_less(a.position, b.position); });
+  for (const auto& [position, corner, track] : sites) {
     inner.sites.push_back(position);
     inner.corner.push_back(corner);
+    inner.track.push_back(track);
   }
   inner.joined_nodes = curves_->joined_nodes();
   inner.losses = losses();

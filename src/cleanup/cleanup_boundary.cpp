@@ -58,7 +58,7 @@ void CleanupBoundary::set_next(BoundaryName site, BoundaryName next) {
 
 void CleanupBoundary::note(std::span<const SiteEdit> edits, int round) {
   for (const SiteEdit& edit : edits)
-    if (edit.boundary >= 0)
+    if (edit.boundary >= 0 || edit.boundary <= first_on_curve)
       edits_.push_back({round, edit.kind, edit.boundary, edit.made, edit.arc, edit.to, edit.patch});
 }
 
@@ -83,11 +83,26 @@ void CleanupBoundary::carry_out(std::span<const Edit> edits, BoundaryChain& chai
   }
 }
 
+/// Takes the moves of sites on curves inside out of a list in the order of the rounds. Returns the last one of each
+/// site, by site.
+std::vector<polygon::InnerMove> CleanupBoundary::inner_moves(std::vector<Edit>& edits) {
+  const auto inside =
+      std::stable_partition(edits.begin(), edits.end(), [](const Edit& edit) { return edit.site >= 0; });
+  std::stable_sort(inside, edits.end(), [](const Edit& a, const Edit& b) { return a.site > b.site; });
+  std::vector<polygon::InnerMove> moves;
+  for (auto edit = inside; edit != edits.end(); ++edit)
+    if (edit + 1 == edits.end() || (edit + 1)->site != edit->site)
+      moves.push_back({index_on_curve(edit->site), edit->position});
+  edits.erase(inside, edits.end());
+  return moves;
+}
+
 std::optional<BoundarySites> CleanupBoundary::finish() {
   std::vector<Edit> all = comm::from_bytes<Edit>(comm_.all_gather(std::as_bytes(std::span<const Edit>(edits_))));
   if (all.empty())
     return std::nullopt;
   std::stable_sort(all.begin(), all.end(), [](const Edit& a, const Edit& b) { return a.round < b.round; });
+  const std::vector<polygon::InnerMove> moves = inner_moves(all);
   BoundaryChain chain(sites_, curve_);
   for (auto begin = all.begin(); begin != all.end();) {
     const auto end = std::find_if(begin, all.end(), [&](const Edit& edit) { return edit.round != begin->round; });
@@ -95,7 +110,9 @@ std::optional<BoundarySites> CleanupBoundary::finish() {
     begin = end;
   }
   new_index_ = chain.renumber();
-  return chain.sites();
+  BoundarySites sites = chain.sites();
+  sites.inner.move_sites(moves);
+  return sites;
 }
 
 LocalIndex CleanupBoundary::index(BoundaryName site) const {

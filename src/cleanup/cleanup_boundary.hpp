@@ -38,10 +38,18 @@ public:
   /// Removes the data of a site that is deleted or that another rank now owns.
   void forget(BoundaryName site) { known_.erase(site); }
 
+  /// Returns the name of a site inside that has not moved: that of a site on a curve, or mesh::fixed_site.
+  /// @param p its position in the container
+  BoundaryName name_inside(geometry::Vec2 p) const {
+    const LocalIndex site = sites_.inner.index_of(p);
+    return site < 0 ? BoundaryName{mesh::fixed_site} : name_on_curve(site);
+  }
+
   /// Stores edits of this rank's patches in a round (0, 1, ...), which finish() sends.
   void note(std::span<const SiteEdit> edits, int round);
-  /// @brief Sends all edits to all ranks. Collective. O(edits on the boundary of all ranks); if there are any, also
-  /// O(sites on the boundary). @return the sites on the boundary after the edits; nothing if there were no edits
+  /// @brief Sends all edits to all ranks. Collective. O(edits on the boundary and on curves of all ranks); if there are
+  /// any, also O(sites on the boundary). @return the sites on the boundary after the edits; nothing if there were no
+  /// edits
   std::optional<polygon::BoundarySites> finish();
   /// Returns whether finish() has found edits that may have changed the indices of sites.
   bool has_new_indices() const { return !new_index_.empty(); }
@@ -58,6 +66,7 @@ private:
     std::uint64_t patch;
   };
   void carry_out(std::span<const Edit> edits, polygon::BoundaryChain& chain);
+  static std::vector<polygon::InnerMove> inner_moves(std::vector<Edit>& edits);
 
   const comm::Communicator& comm_;
   const polygon::BoundarySites& sites_;

@@ -147,17 +147,20 @@ void limit(const comm::Communicator& comm, int sign, GlobalId most, std::span<co
 
 } // namespace
 
-CleanupLimits::CleanupLimits(GlobalId sites, GlobalId most_points) : wanted_sites_(sites), sites_(sites) {
+CleanupLimits::CleanupLimits(GlobalId sites, GlobalId most_points, GlobalId inner_edges)
+    : wanted_sites_(sites), sites_(sites) {
   const GlobalId leeway = static_cast<GlobalId>(Rules::largest_loss * static_cast<double>(sites)) + 1;
-  most_points_ = most_points > 0 ? std::max(most_points, sites) : sites + leeway;
+  const auto at_curves = static_cast<GlobalId>(Rules::inserted_per_inner_edge * static_cast<double>(inner_edges));
+  most_points_ = most_points > 0 ? std::max(most_points, sites) : sites + leeway + at_curves;
   least_sites_ = sites - leeway;
+  for_last_stage_ = 1 + static_cast<GlobalId>(Rules::reserved * static_cast<double>(most_points_));
+  if (inner_edges > 0) // places along curves need sites in all stages
+    for_last_stage_ = std::min(for_last_stage_, (most_points_ - sites) / 4);
 }
 
 /// For more sites. Some are kept for places where nothing but smaller triangles helps.
 GlobalId CleanupLimits::room(int stage) const {
-  const GlobalId reserve =
-      stage >= Rules::stages ? 0 : 1 + static_cast<GlobalId>(Rules::reserved * static_cast<double>(most_points_));
-  return most_points_ - sites_ - reserve;
+  return most_points_ - sites_ - (stage >= Rules::stages ? 0 : for_last_stage_);
 }
 
 PatchBudget CleanupLimits::budget(int stage, double again_alpha) const {

@@ -81,8 +81,9 @@ private:
 class CleanupLimits {
 public:
   /// @param sites number over all ranks @param most_points largest number; 0 means CleanupRules::largest_loss above
-  /// `sites`
-  CleanupLimits(GlobalId sites, GlobalId most_points);
+  /// `sites`, and CleanupRules::inserted_per_inner_edge more for each edge on a curve inside
+  /// @param inner_edges number of edges on curves inside
+  CleanupLimits(GlobalId sites, GlobalId most_points, GlobalId inner_edges = 0);
 
   /// Returns how many sites each patch of a round may add and remove within the limits.
   PatchBudget budget(int stage, double again_alpha) const;
@@ -103,7 +104,7 @@ public:
 private:
   GlobalId room(int stage) const;
 
-  GlobalId most_points_, least_sites_, wanted_sites_, sites_;
+  GlobalId most_points_, least_sites_, wanted_sites_, sites_, for_last_stage_;
 };
 
 } // namespace trime::cleanup

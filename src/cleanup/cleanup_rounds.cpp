@@ -35,7 +35,8 @@ CleanupRounds::CleanupRounds(const sites::Stage& stage, const geometry::Boundary
                              const geometry::Lattice& lattice, const CleanupOptions& options,
                              std::span<const Candidate> candidates)
     : comm_(stage.state->comm()), periods_(stage.state->grid().periods()), lattice_(lattice), size_(*stage.size),
-      limits_(comm_.sum(std::int64_t{stage.state->points().owned()}), options.most_points),
+      limits_(comm_.sum(std::int64_t{stage.state->points().owned()}), options.most_points,
+              static_cast<GlobalId>(stage.polygon.inner.chords.size())),
       boundary_(comm_, meshed, stage.polygon, stage.asked_size(), options.tolerance), sites_(*stage.state, boundary_),
       candidates_(stage.state->grid()), neighbours_(comm_) {
   for (std::unique_ptr<PatchOptimizer>& optimizer : optimizers_)

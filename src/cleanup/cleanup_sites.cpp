@@ -84,10 +84,14 @@ void CleanupSites::list_sites(const Disc& disc, std::size_t most, std::vector<Pa
     if (lies_in(disc, p))
       sites.push_back({p, size, boundary, rests, boundary >= 0 ? boundary_.place(boundary) : BoundaryPlace{}});
   };
+  const auto name_of = [&](LocalIndex j) {
+    const std::int32_t boundary = points.boundary(j);
+    return boundary == mesh::fixed_site ? boundary_.name_inside(points.position(j)) : BoundaryName{boundary};
+  };
   const auto add_range = [&](LocalIndex begin, LocalIndex end) {
     for (LocalIndex j = begin; j < std::min(end, points.owned()) && sites.size() <= most; ++j)
       if (status_[at(j)] != SiteStatus::gone)
-        add(points.position(j), state_.sizes()[j], points.boundary(j), status_[at(j)] == SiteStatus::rests);
+        add(points.position(j), state_.sizes()[j], name_of(j), status_[at(j)] == SiteStatus::rests);
   };
   std::vector<LocalIndex> tiles;
   for_each_tile(disc, [&](LocalIndex tile) {
@@ -253,8 +257,9 @@ void CleanupSites::finish(SiteState& state, const delaunay::StarBuilder& builder
   std::vector<double> sizes;
   for (const std::vector<Added>& list : added_)
     for (const Added& added : list) {
-      come.push_back({added.position, added.boundary >= 0 ? boundary_.index(added.boundary)
-                                                          : static_cast<std::int32_t>(added.boundary)});
+      come.push_back({added.position, added.boundary >= 0                ? boundary_.index(added.boundary)
+                                      : added.boundary <= first_on_curve ? mesh::fixed_site
+                                                                         : static_cast<std::int32_t>(added.boundary)});
       sizes.push_back(added.size);
     }
   state.edit_sites(builder, std::move(gone), std::move(come), sizes);

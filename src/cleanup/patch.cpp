@@ -137,9 +137,14 @@ bool PatchStart::build(Vec2 center, double size, std::span<const PatchSite> site
   return std::any_of(sites.begin(), sites.end(), [this](const PatchSite& site) { return is_deep(site); });
 }
 
+bool PatchStart::may_move(const PatchSite& site) const {
+  const LocalIndex on_curve = index_on_curve(site.boundary);
+  return on_curve < 0 ? site.boundary != mesh::fixed_site : inner().track[at(on_curve)] != polygon::InnerChords::held;
+}
+
 /// Does nothing outside feel a change there? Where all such sites are corners, others may come.
 bool PatchStart::is_deep(const PatchSite& site) const {
-  return site.boundary != mesh::fixed_site &&
+  return may_move(site) &&
          distance(site.position) + CleanupRules::free_depth * std::fmax(site.size, size_) < CleanupRules::reach * size_;
 }
 
@@ -157,9 +162,9 @@ VertexRole PatchStart::role_of(const PatchSite& site) const {
 
 BoundaryVertex PatchStart::on_boundary(const PatchSite& site) {
   BoundaryVertex vertex;
+  vertex.site = site.boundary;
   if (site.boundary < 0)
     return vertex;
-  vertex.site = site.boundary;
   vertex.tolerance = site.on_boundary.tolerance;
   vertex.loop = site.on_boundary.loop;
   vertex.arc = site.on_boundary.arc;
@@ -186,25 +191,28 @@ void PatchStart::link_boundary() {
   }
 }
 
-/// Finds the chords of inner curves whose ends are both in the patch.
+/// Finds the chords of inner curves whose ends are both in the patch, by the positions of the ends before the clean-up.
+/// A site on a curve whose neighbour there is beyond the patch is held.
 void PatchStart::link_curves() {
-  const polygon::InnerChords& inner = boundary_.inner;
-  if (inner.empty())
+  if (inner().empty())
     return;
   std::vector<std::pair<Vec2, LocalIndex>> vertices; // that may be ends
   for (LocalIndex v = PatchMesh::frame; v < patch_.mesh.vertices(); ++v)
-    if (patch_.role[at(v)] != VertexRole::free)
+    if (const LocalIndex site = index_on_curve(patch_.boundary[at(v)].site); site >= 0)
+      vertices.emplace_back(inner().sites[at(site)], v);
+    else if (patch_.role[at(v)] != VertexRole::free)
       vertices.emplace_back(patch_.mesh.position(v), v);
   const auto before = [](const auto& a, const auto& b) { return geometry::lexicographically_less(a.first, b.first); };
   std::sort(vertices.begin(), vertices.end(), before);
   for (const auto& [p, v] : vertices)
-    for (const LocalIndex half : inner.at(p))
-      if (half % 2 == 0) {
-        const std::pair<Vec2, LocalIndex> other{inner.other_end(half), -1};
-        const auto found = std::lower_bound(vertices.begin(), vertices.end(), other, before);
-        if (found != vertices.end() && found->first == other.first)
-          patch_.walls.push_back({std::min(v, found->second), std::max(v, found->second)});
-      }
+    for (const LocalIndex half : inner().at(p)) {
+      const std::pair<Vec2, LocalIndex> other{inner().other_end(half), -1};
+      const auto found = std::lower_bound(vertices.begin(), vertices.end(), other, before);
+      if (found == vertices.end() || found->first != other.first)
+        patch_.role[at(v)] = std::min(patch_.role[at(v)], VertexRole::scored);
+      else if (half % 2 == 0)
+        patch_.walls.push_back({std::min(v, found->second), std::max(v, found->second)});
+    }
 }
 
 } // namespace trime::cleanup

@@ -30,8 +30,8 @@ enum class VertexRole : std::uint8_t { gone, held, scored, free };
 
 /// A vertex on the boundary, with its place and its neighbours along the loop.
 struct BoundaryVertex {
-  BoundaryName site = mesh::free_site; ///< its name; a new site has the name of the last old site before it; -1 if the
-                                       ///< vertex lies inside
+  BoundaryName site = mesh::free_site; ///< its name; a new site has the name of the last old site before it; negative
+                                       ///< if the vertex lies inside
   LocalIndex previous = -1, next = -1; ///< neighbours along the loop; -1 if they lie outside the patch
   LocalIndex loop = -1;
   double arc = 0;
@@ -81,6 +81,7 @@ struct Patch {
 
   bool is_gone(LocalIndex v) const { return role[at(v)] == VertexRole::gone; }
   bool on_boundary(LocalIndex v) const { return boundary[at(v)].site >= 0; }
+  bool on_curve(LocalIndex v) const { return boundary[at(v)].site <= first_on_curve; }
   bool is_chord(LocalIndex from, LocalIndex to) const { return boundary[at(from)].next == to; }
   /// Returns whether an edge is a chord of a curve inside the shape.
   bool is_wall(LocalIndex u, LocalIndex w) const {
@@ -142,9 +143,8 @@ struct Patch {
   std::vector<double> size;             ///< h by vertex
   std::vector<BoundaryVertex> boundary; ///< by vertex: place on the boundary
   std::vector<LocalIndex> rim;          ///< vertices on the boundary, including vertices that were removed
-  std::vector<std::pair<LocalIndex, LocalIndex>>
-      walls;           ///< chords of curves inside the shape, whose ends never move; the lower vertex first
-  GlobalId gain = 0;   ///< number of sites added since the start
+  std::vector<std::pair<LocalIndex, LocalIndex>> walls; ///< chords of curves inside the shape; the lower vertex first
+  GlobalId gain = 0;                                    ///< number of sites added since the start
   bool broken = false; ///< an operation of the triangulation failed: the patch can no longer be used
 
 private:
@@ -175,6 +175,8 @@ public:
   LocalIndex missing_chords() const { return missing_chords_; }
   const geometry::Periods& periods() const { return boundary_.periods; }
   const polygon::BoundaryCurve& curve() const { return curve_; }
+  /// Returns the chords of the curves inside, as they were before the clean-up.
+  const polygon::InnerChords& inner() const { return boundary_.inner; }
   /// Returns the number of sites of a loop at the beginning of the clean-up.
   LocalIndex sites_of_loop(LocalIndex loop) const {
     return boundary_.loop_start[at(loop) + 1] - boundary_.loop_start[at(loop)];
@@ -202,6 +204,7 @@ public:
   double distance(geometry::Vec2 p) const { return geometry::length(p - center_); }
 
 private:
+  bool may_move(const PatchSite& site) const;
   bool is_deep(const PatchSite& site) const;
   VertexRole role_of(const PatchSite& site) const;
   static BoundaryVertex on_boundary(const PatchSite& site);

@@ -32,6 +32,27 @@ Corners largest_first(Corners corners) {
   return corners;
 }
 
+/// Looks for the worst triangle within two sizes of a place. @return whether an operation may help it; then it becomes
+/// the triangle of the place
+bool find_worst(const Patch& patch, double above, BadPlace& place) {
+  const double reach = 4 * place.size * place.size;
+  double worst = above;
+  for (const PatchMesh::Triangle& triangle : patch.mesh.triangles()) {
+    const Corners corners = triangle.vertex[0] < 0 ? triangle.vertex : largest_first(triangle.vertex);
+    if (corners[0] < 0 || patch.is_surely_below(worst, corners) || !patch.counts(triangle) ||
+        !(geometry::squared_length(patch.middle_of(corners) - place.middle) < reach))
+      continue;
+    if (const double alpha = patch.alpha(corners); alpha > worst) {
+      worst = place.alpha = alpha;
+      place.corners = corners;
+    }
+  }
+  if (!(worst > above))
+    return false;
+  place.middle = patch.middle_of(place.corners);
+  return true;
+}
+
 /// Looks for the obtuse triangle nearest to a place, within two sizes. @return whether there is one; then it becomes
 /// the triangle of the place
 bool find_obtuse(const Patch& patch, BadPlace& place) {
@@ -70,7 +91,7 @@ void PatchScore::list_near(const Patch& now, const BadPlace& place) {
       continue;
     in_score_[at(v)] = now.role[at(v)] >= VertexRole::scored;
     if (now.is_behind_wall(place.middle, now.mesh.position(v)))
-      continue; // sites on walls do not move, so the other side has nothing to do with this one
+      continue; // the other side feels little of what happens on this one: sites on walls only slide
     if (now.role[at(v)] != VertexRole::free ||
         !is_within(squared, obtuse_weight_ > 0 ? Rules::near_reach_if_obtuse : Rules::near_reach))
       continue;
@@ -194,7 +215,9 @@ bool PatchContest::hold(Patch& now, const Corners& worst, const PatchBudget& bud
   if (!is_first && !is_against_obtuse_ && !is_worth(now, place, before.max, budget))
     return false;
   const double first = (1 - Rules::least_gain) * before.sum;
-  const double most = is_against_obtuse_ ? std::max(before.max, Rules::alpha_for_obtuse) : before.max;
+  const double most = is_against_obtuse_                        ? std::max(before.max, Rules::alpha_for_obtuse)
+                      : now.has_wall(worst) && !budget.is_again ? before.max + Rules::rise_at_curves
+                                                                : before.max;
   Bar bar{first, first, most, most, before.obtuse};
   if (is_first && !set_bar_by_moves(now, bar))
     return false;
@@ -202,7 +225,7 @@ bool PatchContest::hold(Patch& now, const Corners& worst, const PatchBudget& bud
   if (is_against_obtuse_)
     operations_.list_against_obtuse(now, place);
   try_operations(now, place, budget, bar);
-  if (is_against_obtuse_ && budget.is_last && !bar.found)
+  if (!bar.found && (is_against_obtuse_ ? budget.is_last : !is_first && now.has_wall(worst)))
     try_pairs(place, budget, bar);
   const double least_bad = budget.is_again ? Rules::refine_alpha : Rules::refine_alpha_at_first;
   if (!is_first && !is_against_obtuse_ && std::fmin(place.alpha, bar.largest) > least_bad && !operations_.all().empty())
@@ -371,11 +394,12 @@ void PatchContest::try_pairs(const BadPlace& place, const PatchBudget& budget, B
       first_of_two_.push_back(finalist.patch);
   for (Patch& first : first_of_two_) {
     BadPlace second = place;
-    if (!find_obtuse(first, second))
+    if (!(is_against_obtuse_ ? find_obtuse(first, second) : find_worst(first, operate_alpha_, second)))
       continue;
-    score_.begin(first, second, budget.obtuse_weight);
+    score_.begin(first, is_against_obtuse_ ? second : place, budget.obtuse_weight);
     operations_.list(first, second, is_thorough_);
-    operations_.list_against_obtuse(first, second);
+    if (is_against_obtuse_)
+      operations_.list_against_obtuse(first, second);
     try_operations(first, second, budget, bar);
     if (bar.found)
       return;

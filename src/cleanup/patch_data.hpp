@@ -13,9 +13,20 @@
 namespace trime::cleanup {
 
 /// @brief The name of a site on the boundary during the clean-up, which is the same on every rank: for sites that
-/// existed at the beginning, their index; for new sites, a hash. A negative number means that the site lies inside, see
-/// mesh::Site.
+/// existed at the beginning, their index; for new sites, a hash. A negative number means that the site lies inside: see
+/// mesh::Site, and for sites on curves inside see name_on_curve.
 using BoundaryName = std::int64_t;
+
+/// Largest name of a site on a curve inside.
+inline constexpr BoundaryName first_on_curve = mesh::fixed_site - 1;
+/// Returns the name of a site on a curve inside, given its index into polygon::InnerChords::sites at the beginning.
+constexpr BoundaryName name_on_curve(LocalIndex site) {
+  return first_on_curve - site;
+}
+/// Returns the index of a site on a curve inside; negative if the name is not that of such a site.
+constexpr LocalIndex index_on_curve(BoundaryName name) {
+  return name <= first_on_curve ? static_cast<LocalIndex>(first_on_curve - name) : -1;
+}
 
 /// The place of a site on the boundary.
 struct BoundaryPlace {

@@ -39,10 +39,11 @@ bool PatchChords::holds(const Patch& patch, LocalIndex v, const PatchMesh::Apexe
   return true;
 }
 
-/// Returns whether a chord of a curve inside the shape holds. Such a chord never changes.
+/// Returns whether a chord of a curve inside the shape holds.
 bool PatchChords::wall_holds(const Patch& patch, LocalIndex u, LocalIndex w, const PatchMesh::Apexes& apexes) const {
+  const bool has_changed = start_.has_changed(patch, u) || start_.has_changed(patch, w);
   for (const LocalIndex apex : {apexes.left, apexes.right})
-    if (apex >= PatchMesh::frame && start_.has_changed(patch, apex) &&
+    if (apex >= PatchMesh::frame && (has_changed || start_.has_changed(patch, apex)) &&
         geometry::diametral_side(patch.mesh.position(u), patch.mesh.position(w), patch.mesh.position(apex)) <= 0)
       return false;
   return true;
@@ -218,12 +219,17 @@ void PatchMover::relax(Patch& patch, std::span<const LocalIndex> vertices) {
     return;
   shifted_.clear();
   for (const LocalIndex v : vertices)
-    if (patch.role[at(v)] == VertexRole::free && !patch.on_boundary(v) && relax_inside(patch, v))
+    if (patch.role[at(v)] == VertexRole::free && !patch.on_boundary(v) && !patch.on_curve(v) && relax_inside(patch, v))
       shifted_.push_back(v);
   patch.mesh.restore(shifted_);
-  for (const LocalIndex v : vertices)
-    if (patch.role[at(v)] == VertexRole::free && patch.on_boundary(v) && !patch.broken)
+  for (const LocalIndex v : vertices) {
+    if (patch.role[at(v)] != VertexRole::free || patch.broken)
+      continue;
+    if (patch.on_boundary(v))
       slide(patch, v);
+    else if (patch.on_curve(v))
+      slide_inside(patch, v);
+  }
 }
 
 /// @return false if a neighbour is a vertex of the frame
@@ -344,6 +350,94 @@ void PatchMover::slide(Patch& patch, LocalIndex v) {
     own.changed = patch.boundary[at(own.previous)].changed = true;
     return;
   }
+}
+
+/// Finds the neighbours of a vertex on a curve inside. @return false if one of the two chords is not in the patch
+bool PatchMover::load_chords(const Patch& patch, LocalIndex v) {
+  on_curve_.clear();
+  for (const auto& [u, w] : patch.walls)
+    if (u == v || w == v)
+      on_curve_.push_back(u == v ? w : u);
+  return on_curve_.size() == 2;
+}
+
+/// The place of a vertex on a curve inside after a step along the curve; nothing if the place is too far from it.
+std::optional<Vec2> PatchMover::stepped(const Patch& patch, LocalIndex v, double step) const {
+  using polygon::InnerChords;
+  const Vec2 from = patch.mesh.position(v);
+  const LocalIndex site = index_on_curve(patch.boundary[at(v)].site);
+  const std::int32_t track = start_.inner().track[at(site)];
+  const Vec2 beyond = from + step * tangent_;
+  if (track >= 0) {
+    const polygon::SlideCircle& circle = start_.inner().circles[at(track)];
+    const Vec2 arm = beyond - circle.center;
+    return start_.lattice().snap(circle.center + (circle.radius / geometry::length(arm)) * arm);
+  }
+  const Vec2 to = start_.lattice().snap(beyond);
+  if (track == InnerChords::bent &&
+      geometry::length(to - start_.inner().sites[at(site)]) > Rules::longest_bent_slide * patch.size[at(v)])
+    return std::nullopt;
+  return to;
+}
+
+/// The unit vector along the curve at a vertex: the tangent of the circle, or the direction from one neighbour to the
+/// other. A step from one neighbour towards the other leaves the areas on both sides as they are; steps along a circle
+/// change them, see polygon::InnerChords::move_sites.
+Vec2 PatchMover::tangent_at(const Patch& patch, LocalIndex v) const {
+  const std::int32_t track = start_.inner().track[at(index_on_curve(patch.boundary[at(v)].site))];
+  const Vec2 along = track >= 0
+                         ? geometry::left_normal(patch.mesh.position(v) - start_.inner().circles[at(track)].center)
+                         : patch.mesh.position(on_curve_[1]) - patch.mesh.position(on_curve_[0]);
+  return (1 / geometry::length(along)) * along;
+}
+
+/// Moves a vertex along a curve inside; its neighbours there stay where they are.
+void PatchMover::slide_inside(Patch& patch, LocalIndex v) {
+  if (!load_ring(patch, v) || !load_chords(patch, v))
+    return;
+  const Vec2 from = patch.mesh.position(v);
+  const double h = patch.size[at(v)];
+  const EnergyModel model = model_at(from, true);
+  if (model.value < Rules::rest_energy)
+    return;
+  const Vec2 a = patch.mesh.position(on_curve_[0]), b = patch.mesh.position(on_curve_[1]);
+  const double to_a = geometry::length(a - from), to_b = geometry::length(b - from);
+  tangent_ = tangent_at(patch, v);
+  double step = step_along(model, tangent_, std::fmin(Rules::longest_slide * h, slide_share * std::fmin(to_a, to_b)));
+  const int halvings = is_thorough_ ? Rules::halvings : Rules::slide_halvings;
+  for (int halving = 0; halving <= halvings; ++halving, step *= 0.5) {
+    if (std::fabs(step) < Rules::shortest_move * h)
+      return;
+    const std::optional<Vec2> to = stepped(patch, v, step);
+    if (!to || !is_better(*to, true, model.value) || !may_slide_inside(patch, v, *to))
+      continue;
+    if (!patch.mesh.move(v, *to) && !patch.mesh.replace(v, *to))
+      patch.broken = true;
+    return;
+  }
+}
+
+/// Is a new length of a chord of a bent curve near h, or nearer than the old one?
+bool PatchMover::may_be_as_long(double before, double after, double size) {
+  return (after <= before || after <= Rules::longest_bent_chord * size) &&
+         (after >= before || after >= Rules::shortest_bent_chord * size);
+}
+
+/// Would the chords on both sides of a vertex on a curve inside have empty discs, and would it stay out of the discs of
+/// the others? Looks at its neighbours only; PatchChords::hold is certain.
+bool PatchMover::may_slide_inside(const Patch& patch, LocalIndex v, Vec2 to) const {
+  const bool is_bent =
+      start_.inner().track[at(index_on_curve(patch.boundary[at(v)].site))] != polygon::InnerChords::straight;
+  for (const LocalIndex end : on_curve_) {
+    const Vec2 p = patch.mesh.position(end);
+    if (is_bent &&
+        !may_be_as_long(geometry::length(patch.mesh.position(v) - p), geometry::length(to - p), patch.size[at(v)]))
+      return false;
+    for (const LocalIndex u : ring_)
+      if (u != end && geometry::diametral_side(p, to, patch.mesh.position(u)) <= 0)
+        return false;
+  }
+  return keeps_clear(patch, to);
 }
 
 /// Would the chords on both sides of a vertex be allowed?

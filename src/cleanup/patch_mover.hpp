@@ -7,6 +7,7 @@
 #include "trime/geometry/vec2.hpp"
 
 #include <cmath>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -103,6 +104,12 @@ private:
   bool is_better(geometry::Vec2 p, bool closed, double limit) const;
   bool relax_inside(Patch& patch, LocalIndex v);
   void slide(Patch& patch, LocalIndex v);
+  void slide_inside(Patch& patch, LocalIndex v);
+  bool load_chords(const Patch& patch, LocalIndex v);
+  geometry::Vec2 tangent_at(const Patch& patch, LocalIndex v) const;
+  std::optional<geometry::Vec2> stepped(const Patch& patch, LocalIndex v, double step) const;
+  static bool may_be_as_long(double before, double after, double size);
+  bool may_slide_inside(const Patch& patch, LocalIndex v, geometry::Vec2 to) const;
   bool load_ring(const Patch& patch, LocalIndex v);
   bool load_fan(const Patch& patch, LocalIndex v);
   bool may_slide(const Patch& patch, LocalIndex v, const BoundaryVertex& moved, geometry::Vec2 to) const;
@@ -114,6 +121,8 @@ private:
   bool is_thorough_ = false, is_against_obtuse_ = false;
   std::vector<LocalIndex> ring_, shifted_; // work space
   std::vector<geometry::Vec2> around_;     // positions of the vertices in ring_
+  std::vector<LocalIndex> on_curve_;       // neighbours of a vertex along its curve inside
+  geometry::Vec2 tangent_;                 // unit vector along that curve
 };
 
 } // namespace trime::cleanup

@@ -18,8 +18,9 @@ constexpr LocalIndex least_in_loop = 8; // [sites] A loop with fewer loses none,
 
 constexpr LocalIndex regular_degree = 6; // of a vertex among equilateral triangles
 
-bool is_free(const Patch& patch, LocalIndex v) {
-  return patch.role[at(v)] == VertexRole::free;
+/// May an operation remove a vertex? Those on curves inside only move.
+bool may_go(const Patch& patch, LocalIndex v) {
+  return patch.role[at(v)] == VertexRole::free && !patch.on_curve(v);
 }
 
 Vec2 middle_of_longest_edge(const Patch& now, const Corners& corners) {
@@ -207,7 +208,7 @@ void PatchOperations::list(const Patch& now, const BadPlace& place, bool is_thor
     list_between_walls(now, place.corners);
   add_insertion(middle_of_longest_edge(now, place.corners));
   for (const LocalIndex v : place.corners)
-    if (is_free(now, v))
+    if (may_go(now, v))
       add_removal(v);
   if (place.alpha > CleanupRules::divide_alpha)
     list_at_boundary(now, place);
@@ -236,15 +237,15 @@ void PatchOperations::divide_corner(const Patch& now, LocalIndex v, LocalIndex n
   const Vec2 inside = p + (0.5 * (a + b) / geometry::length(along)) * along;
   add_insertion(inside);
   for (const LocalIndex far : {next, previous})
-    if (is_free(now, far))
+    if (may_go(now, far))
       all_.push_back({.removed = {far, -1}, .inserted = inside});
   if (const auto apexes = now.mesh.apexes(next, previous); apexes)
     for (const LocalIndex far : {apexes->left, apexes->right})
-      if (far >= PatchMesh::frame && far != v && is_free(now, far))
+      if (far >= PatchMesh::frame && far != v && may_go(now, far))
         all_.push_back({.removed = {far, -1}, .inserted = inside});
 }
 
-/// Corners between two curves inside, or between one and the boundary. Sites on curves do not move, so a site inside
+/// Corners between two curves inside, or between one and the boundary. Sites on curves only slide, so a site inside
 /// must do all.
 void PatchOperations::list_between_walls(const Patch& now, const Corners& worst) {
   const auto is_line = [&](LocalIndex a, LocalIndex b) {
@@ -260,11 +261,11 @@ void PatchOperations::list_between_walls(const Patch& now, const Corners& worst)
 /// Insertions on the edges of a crowded vertex, and deletions of its neighbours.
 void PatchOperations::list_around(const Patch& now, const Corners& worst, LocalIndex v, bool is_thorough) {
   now.mesh.collect_ring(v, ring_);
-  if (is_free(now, v) && !now.on_boundary(v) && ring_.size() >= CleanupRules::many_neighbours)
+  if (may_go(now, v) && !now.on_boundary(v) && ring_.size() >= CleanupRules::many_neighbours)
     for (std::size_t k = 0; k < ring_.size(); k += 2)
       add_insertion(0.5 * (now.mesh.position(v) + now.mesh.position(ring_[k])));
   for (const LocalIndex u : ring_)
-    if (u >= PatchMesh::frame && is_free(now, u) &&
+    if (u >= PatchMesh::frame && may_go(now, u) &&
         (is_thorough || (!now.on_boundary(u) && now.mesh.degree(u) < regular_degree)) &&
         std::find(worst.begin(), worst.end(), u) == worst.end())
       add_removal(u);
@@ -282,7 +283,7 @@ void PatchOperations::list_at_boundary(const Patch& now, const BadPlace& place) 
     if (!now.is_chord(previous, v))
       continue;
     // A corner with one triangle: a vertex inside must come nearer, or more of them.
-    if (is_free(now, next) && is_free(now, previous))
+    if (may_go(now, next) && may_go(now, previous))
       all_.push_back({.removed = {next, previous}});
     all_.push_back({.divided = {v, previous}});
     all_.push_back({.divided = {v, previous}, .inserted = place.middle});

@@ -104,6 +104,14 @@ struct CleanupRules {
   static constexpr int halvings = 3;
   /// [halvings] How often such a step is halved for sites on the boundary, in trials that are not thorough.
   static constexpr int slide_halvings = 1;
+  /// [h] Largest distance of a site on a simplified interface from its place before the clean-up. Such a site moves
+  /// parallel to the line between its neighbours, so it leaves the curve. Not measured.
+  static constexpr double longest_bent_slide = 0.3;
+  /// [h] Largest length of a chord of a bent curve inside after one of its ends has moved. The areas on both sides
+  /// depend on the lengths of the chords. Not measured.
+  static constexpr double longest_bent_chord = 1.07;
+  /// [h] Smallest length of such a chord. Not measured.
+  static constexpr double shortest_bent_chord = 0.93;
   /// [h] Longest step along the boundary.
   static constexpr double longest_slide = 0.2;
   /// [sweeps] Largest number of sweeps over the sites of bad triangles and their neighbours.
@@ -211,6 +219,11 @@ struct CleanupRules {
   /// [alpha] An operation that removes an obtuse triangle may leave other triangles up to this alpha. Measured together
   /// with near_reach_if_obtuse.
   static constexpr double alpha_for_obtuse = 1.28;
+  /// [alpha] By how much the largest alpha near a curve inside may rise in the first stage if the sum falls: where two
+  /// places are side by side, two operations are needed. Measured: in a mesh of 1e6 points with 500 discs inside,
+  /// with FitRules::reserved_per_inner_edge = 0.06, 204 triangles had an alpha above 1.11 with this value, and 251 with
+  /// 0.
+  static constexpr double rise_at_curves = 0.03;
   /// [operations] As runners, in the last of these stages. Measured with finalists_at_last, first_of_two and
   /// reserved_for_obtuse: of 43 obtuse triangles of coasts 23 were left.
   static constexpr std::size_t runners_at_last = 16;
@@ -244,6 +257,10 @@ struct CleanupRules {
   /// [1] Share of the sites by which their number may fall, and by which it may rise if the user has not asked for a
   /// number of points.
   static constexpr double largest_loss = 0.005;
+  /// [sites] By how much more the number may rise for each edge on a curve or an interface inside, if the user has not
+  /// asked for a number of points. If the user has, FitRules::reserved_per_inner_edge leaves room. Measured with
+  /// that number.
+  static constexpr double inserted_per_inner_edge = 0.1;
   /// [1] Share of the sites that are kept back until the last stage, for places where only smaller triangles help.
   /// Measured: on North America with 17000 points the largest alpha was 1.38 with this share, and 1.61 with a smaller
   /// one.

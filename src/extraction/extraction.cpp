@@ -180,7 +180,7 @@ private:
       from_previous();
   }
 
-  /// Is it a fixed point, or a node or corner of a curve? Other sites on curves do not move, but could lie elsewhere.
+  /// Is it a fixed point, or a node or corner of a curve? Other sites on curves could lie elsewhere.
   bool is_kept(Vec2 p) const {
     return view_.polygon.inner.is_corner(p) ||
            std::binary_search(view_.fixed.begin(), view_.fixed.end(), p, geometry::lexicographically_less);

@@ -73,6 +73,22 @@ double expected_points(const LayoutContext& context) {
   return options.absolute ? points_of_sizes(context) : points_of_length(context.given_boundary, *options.edge_length);
 }
 
+GlobalId reserved_for_curves(const LayoutContext& context) {
+  if (!context.options.points)
+    return 0;
+  double length = 0, ends = 0;
+  for (const geometry::InnerArc& arc : context.domain.curves().arcs) {
+    ends += arc.closed ? 0 : 2;
+    for (const geometry::Piece& piece : arc.pieces)
+      length += piece.length();
+  }
+  const double points = static_cast<double>(*context.options.points);
+  const double edge = std::sqrt(context.given_boundary.area / (row_height * points));
+  return static_cast<GlobalId>(
+      std::fmin(FitRules::reserved_for_inner_edges * points,
+                FitRules::reserved_per_inner_edge * length / edge + FitRules::reserved_per_inner_end * ends));
+}
+
 void check_point_limit(const FitOptions& options, double points) {
   if (options.point_limit && points > static_cast<double>(*options.point_limit))
     throw ConfigError(

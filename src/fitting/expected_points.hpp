@@ -12,6 +12,10 @@ namespace trime::fitting {
 /// @throws GeometryError on all ranks together if a size is not positive and finite
 double expected_points(const LayoutContext& context);
 
+/// Returns how many of the points asked for are left to the clean-up, which inserts them along curves and interfaces
+/// inside. Their edges are counted as if the size were uniform. 0 if no number was asked for. Cost: O(pieces).
+GlobalId reserved_for_curves(const LayoutContext& context);
+
 /// @brief Checks the number of points that absolute sizes take against the limit that the user has set.
 /// @throws ConfigError if there are more points than the limit; equal on all ranks if `points` is
 void check_point_limit(const FitOptions& options, double points);

@@ -3,6 +3,7 @@
 
 #include "comm/agree.hpp"
 #include "core/angle.hpp"
+#include "fitting/expected_points.hpp"
 #include "fitting/factor_search.hpp"
 #include "fitting/layout.hpp"
 #include "fitting/points_of_length.hpp"
@@ -111,7 +112,7 @@ placing::LatticeRuns fitting_runs(const LayoutContext& context, const Stage& sta
   const mesh::TileRange tiles = placing::own_share(stage);
   const geometry::Box& container = context.domain.frame().container();
   const double none = 4 * (container.width() + container.height());
-  SpacingSearch search(*context.options.points - stage.placed_first(), h, none);
+  SpacingSearch search(*context.options.points - reserved_for_curves(context) - stage.placed_first(), h, none);
   placing::LatticeRuns fitting{none, {}};
   for (int round = 0; round < spacing_rounds && !search.is_over(); ++round) {
     placing::LatticeRuns runs = start.runs(tiles, search.spacing());

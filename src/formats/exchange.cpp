@@ -26,6 +26,8 @@ constexpr FormatInfo table[] = {
     {Format::sms, "2dm", ".2dm", false, false, plan_sms},
     {Format::adcirc, "fort14", ".14", false, false, plan_adcirc},
     {Format::geojson, "geojson", ".geojson", false, true, plan_geojson},
+    {Format::abaqus, "abaqus", ".inp", false, false, plan_abaqus},
+    {Format::exodus, "exodus", ".exo", false, true, plan_exodus},
 };
 
 /// Numbers of MSH 2.2 have 32 bits, as have those of most programs that read the text formats.

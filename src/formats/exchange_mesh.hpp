@@ -112,5 +112,7 @@ std::vector<FilePlan> plan_vtu(const ExchangeMesh& mesh, const std::string& path
 std::vector<FilePlan> plan_sms(const ExchangeMesh& mesh, const std::string& path);
 std::vector<FilePlan> plan_adcirc(const ExchangeMesh& mesh, const std::string& path);
 std::vector<FilePlan> plan_geojson(const ExchangeMesh& mesh, const std::string& path);
+std::vector<FilePlan> plan_abaqus(const ExchangeMesh& mesh, const std::string& path);
+std::vector<FilePlan> plan_exodus(const ExchangeMesh& mesh, const std::string& path);
 
 } // namespace trime::formats

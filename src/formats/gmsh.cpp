@@ -4,12 +4,12 @@
 // entity lie in the same groups.
 #include "comm/agree.hpp"
 #include "formats/exchange_mesh.hpp"
+#include "formats/rows_by_number.hpp"
 
 #include <algorithm>
 #include <functional>
 #include <initializer_list>
 #include <memory>
-#include <numeric>
 #include <set>
 
 #include <fmt/format.h>
@@ -155,29 +155,6 @@ void add_nodes(const ExchangeMesh& mesh, std::vector<io::TextRows>& rows) {
   rows.push_back(mesh.once("\n$EndNodes\n"));
 }
 
-/// The rows of this rank by their number, which is a label or a region: one pass for all blocks of a section.
-class RowsByNumber {
-public:
-  /// @param number returns that of a row, from 1 to `most`
-  template <class Number>
-  RowsByNumber(std::int64_t rows, std::size_t most, const Number& number) : first_(most + 2, 0), rows_(at(rows)) {
-    for (std::int64_t row = 0; row < rows; ++row)
-      ++first_[at(number(row)) + 1];
-    std::partial_sum(first_.begin(), first_.end(), first_.begin());
-    std::vector<std::int64_t> next = first_;
-    for (std::int64_t row = 0; row < rows; ++row)
-      rows_[at(next[at(number(row))]++)] = static_cast<LocalIndex>(row);
-  }
-  std::int64_t count(std::size_t number) const { return first_[number + 1] - first_[number]; }
-  std::int64_t row(std::size_t number, std::int64_t k) const { return rows_[at(first_[number] + k)]; }
-
-private:
-  static std::size_t at(std::int64_t index) { return static_cast<std::size_t>(index); }
-
-  std::vector<std::int64_t> first_; // by number
-  std::vector<LocalIndex> rows_;
-};
-
 /// The elements of one type: a block for each name, which becomes an entity.
 struct BlockSet {
   int dimension;
@@ -193,10 +170,7 @@ void add_blocks(const ExchangeMesh& mesh, const BlockSet& set, std::vector<io::T
       set.elements.rows, set.names.empty() ? 0 : set.names.back() + 1, set.number);
   for (const std::size_t name : set.names) {
     rows.push_back(mesh.once(block(set.dimension, name + 1, set.type, set.count(name))));
-    rows.push_back(
-        {by_number->count(name + 1), [by_number, name, append = set.elements.append](std::int64_t k, std::string& to) {
-           append(by_number->row(name + 1, k), to);
-         }});
+    rows.push_back(rows_of_number(by_number, name + 1, set.elements.append));
   }
 }
 

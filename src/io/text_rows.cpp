@@ -22,6 +22,7 @@ namespace {
 
 constexpr std::int64_t rows_at_once = 1 << 17; // over all ranks: about 15 MB of text
 constexpr std::int64_t rows_of_thread = 1 << 11;
+constexpr std::int64_t rows_together = 1 << 14; // of short arrays over all ranks, see write_together
 
 /// Rank 0's end of the file.
 class Output {
@@ -134,6 +135,87 @@ std::int64_t write_array(const TextRows& array, std::int64_t start, const Output
   return comm.max(offset); // that of the last rank with rows; the others have theirs before it
 }
 
+/// A text of one rank for one of the arrays that are written together.
+struct Piece {
+  std::int64_t array, bytes;
+};
+
+/// The texts of this rank for all arrays: the number of pieces, the pieces, then their bytes. Empty if all texts are
+/// empty.
+std::vector<std::byte> packed_together(std::span<const TextRows> arrays) {
+  std::vector<std::string> texts(arrays.size());
+  thread_loop(std::ssize(arrays), 1, [&](std::ptrdiff_t k, int) {
+    const TextRows& array = arrays[static_cast<std::size_t>(k)];
+    for (std::int64_t row = 0; row < array.rows; ++row)
+      array.append(row, texts[static_cast<std::size_t>(k)]);
+  });
+  std::vector<Piece> pieces;
+  for (std::size_t k = 0; k < texts.size(); ++k)
+    if (!texts[k].empty())
+      pieces.push_back({static_cast<std::int64_t>(k), std::ssize(texts[k])});
+  std::vector<std::byte> data;
+  if (pieces.empty())
+    return data;
+  const auto append = [&data](const void* bytes, std::size_t size) {
+    const auto* from = static_cast<const std::byte*>(bytes);
+    data.insert(data.end(), from, from + size);
+  };
+  const std::int64_t count = std::ssize(pieces);
+  append(&count, sizeof count);
+  append(pieces.data(), pieces.size() * sizeof(Piece));
+  for (const std::string& text : texts)
+    append(text.data(), text.size());
+  return data;
+}
+
+/// Joins the texts of all ranks: array by array, and in each array rank by rank.
+std::vector<std::byte> joined(const std::vector<comm::Message>& messages) {
+  struct Text {
+    Piece piece;
+    const std::byte* from;
+  };
+  std::vector<Text> texts;
+  for (const comm::Message& message : messages) { // ascending by rank
+    std::int64_t count = 0;
+    std::memcpy(&count, message.data.data(), sizeof count);
+    const std::byte* piece = message.data.data() + sizeof count;
+    const std::byte* from = piece + static_cast<std::size_t>(count) * sizeof(Piece);
+    for (std::int64_t k = 0; k < count; ++k, piece += sizeof(Piece)) {
+      Text& text = texts.emplace_back(Text{{}, from});
+      std::memcpy(&text.piece, piece, sizeof(Piece));
+      from += text.piece.bytes;
+    }
+  }
+  std::stable_sort(texts.begin(), texts.end(),
+                   [](const Text& a, const Text& b) { return a.piece.array < b.piece.array; });
+  std::vector<std::byte> bytes;
+  for (const Text& text : texts)
+    bytes.insert(bytes.end(), text.from, text.from + text.piece.bytes);
+  return bytes;
+}
+
+/// Appends several arrays with few rows from `start` on, in one exchange: a file may have thousands of them, and a
+/// separate exchange for each would take most of the time. @return the end of them
+std::int64_t write_together(std::span<const TextRows> arrays, std::int64_t start, const Output* output,
+                            const comm::Communicator& comm) {
+  std::vector<comm::Message> outgoing;
+  comm::run_agreed(comm, [&] {
+    std::vector<std::byte> data = packed_together(arrays);
+    if (!data.empty())
+      outgoing.push_back({0, std::move(data)});
+  });
+  const std::vector<comm::Message> incoming = comm.exchange_any(outgoing);
+  std::int64_t end = start;
+  comm::run_agreed(comm, [&] {
+    if (incoming.empty())
+      return;
+    const std::vector<std::byte> bytes = joined(incoming);
+    output->write(start, bytes.data(), bytes.size());
+    end += std::ssize(bytes);
+  });
+  return comm.max(end); // rank 0 knows it
+}
+
 } // namespace
 
 void append_number(std::string& text, double number) {
@@ -155,9 +237,21 @@ void write_text_rows(const std::string& final_path, std::span<const TextRows> ar
     if (comm.is_root())
       output.emplace(final_path, files);
   });
-  std::int64_t end = 0;
+  const Output* const file = output ? &*output : nullptr;
+  std::vector<std::int64_t> rows; // of each array over all ranks
   for (const TextRows& array : arrays)
-    end = write_array(array, end, output ? &*output : nullptr, comm);
+    rows.push_back(array.rows);
+  comm.sum(rows);
+  std::int64_t end = 0;
+  for (std::size_t first = 0, next = 0; first < arrays.size(); first = next) {
+    std::int64_t together = 0;
+    for (; next < arrays.size() && together + rows[next] <= rows_together; ++next)
+      together += rows[next];
+    if (next > first)
+      end = write_together(arrays.subspan(first, next - first), end, file, comm);
+    else
+      end = write_array(arrays[next++], end, file, comm);
+  }
   comm::run_agreed(comm, [&] {
     if (output)
       output->publish();

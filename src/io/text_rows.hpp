@@ -27,8 +27,9 @@ void append_number(std::string& text, double number);
 void append_number(std::string& text, std::int64_t number);
 
 /// @brief Writes all rows of the first array, then those of the second, and so on, under a temporary name; then renames
-/// the file. If there are several ranks, each makes its lines twice, the first time only to count bytes. Memory: about
-/// 30 MB on rank 0, and 30 MB divided by the number of ranks on each other rank.
+/// the file. If there are several ranks, each makes the lines of long arrays twice, the first time only to count bytes;
+/// short arrays that follow each other are written in one exchange. Memory: about 30 MB on rank 0, and 30 MB divided by
+/// the number of ranks on each other rank.
 /// @param files keeps the name of the temporary file, see MeshFileOptions::run_files; may be null
 /// @throws FileError on all ranks together
 /// @note Collective.

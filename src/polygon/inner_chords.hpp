@@ -20,14 +20,35 @@ struct InnerChord {
   std::int32_t left = 0, right = 0; ///< regions on both sides, as indices into geometry::Regions::names
 };
 
-/// @brief The chords of all curves inside a shape, and the sites on the curves. The sites never move. An end of a chord
-/// is one of `sites`, or a corner on the boundary. Invariant: the open diametral circle of a chord contains no boundary
-/// site and no other end of a chord.
+/// A circle on which sites of an interface or a curve may move.
+struct SlideCircle {
+  geometry::Vec2 center;
+  double radius = 0;
+  std::int32_t left = 0;  ///< region on the left of the arc
+  std::int32_t loss = -1; ///< entry of InnerChords::losses for the arc; -1: the arc divides no two regions
+};
+
+/// A new position of a site on a curve.
+struct InnerMove {
+  LocalIndex site; ///< index into InnerChords::sites
+  geometry::Vec2 position;
+};
+
+/// @brief The chords of all curves inside a shape, and the sites on the curves. Only the clean-up moves the sites.
+/// An end of a chord is one of `sites`, or a corner on the boundary. Invariant: the open diametral circle of a chord
+/// contains no boundary site and no other end of a chord.
 struct InnerChords {
+  /// Values of `track`; other values are indices into `circles`.
+  static constexpr std::int32_t held = -1, straight = -2, bent = -3;
+
   std::vector<InnerChord> chords;    ///< arc by arc, in the direction of each arc
   std::vector<geometry::Vec2> sites; ///< sites inside the shape, each once, in lexicographic order
   std::vector<std::uint8_t> corner;  ///< by site: whether it is a node or a corner, which must be a vertex of the mesh
-  std::int64_t joined_nodes = 0;     ///< see geometry::InnerCurves
+  std::vector<std::int32_t> track;  ///< by site: how the clean-up may move it: not at all (held), along its two chords,
+                                    ///< which lie on one straight piece (straight), parallel to the line between its
+                                    ///< neighbours on a simplified interface (bent), or along one of `circles`
+  std::vector<SlideCircle> circles; ///< circles to which `track` refers, arc by arc
+  std::int64_t joined_nodes = 0;    ///< see geometry::InnerCurves
   std::vector<geometry::RegionLoss> losses{}; ///< what regions lose to each other by interfaces that are not the given
                                               ///< ones, place by place
   std::vector<LocalIndex> by_end; ///< each chord k as 2 k (first end) and 2 k + 1 (second end), by place of that end
@@ -50,11 +71,22 @@ struct InnerChords {
       ++high;
     return {low, high};
   }
-  /// Returns whether a site inside is a corner or a node. @pre p is one of `sites`
-  bool is_corner(geometry::Vec2 p) const {
+  /// Returns the index of the site at p, or -1 if no site is there. Cost: O(log sites).
+  LocalIndex index_of(geometry::Vec2 p) const {
     const auto found = std::lower_bound(sites.begin(), sites.end(), p, geometry::lexicographically_less);
-    return found != sites.end() && *found == p && corner[static_cast<std::size_t>(found - sites.begin())] != 0;
+    return found != sites.end() && *found == p ? static_cast<LocalIndex>(found - sites.begin()) : -1;
   }
+  /// Returns whether there is a site at p that is a corner or a node.
+  bool is_corner(geometry::Vec2 p) const {
+    const LocalIndex site = index_of(p);
+    return site >= 0 && corner[static_cast<std::size_t>(site)] != 0;
+  }
+  /// @brief Moves sites with the ends of their chords, and brings the losses of arcs on circles up to date. The indices
+  /// of sites change. Cost: O(chords log chords). @pre each site occurs once, and its track is not `held`
+  void move_sites(std::span<const InnerMove> moves);
+
+private:
+  void sort_sites();
 };
 
 } // namespace trime::polygon

@@ -64,8 +64,9 @@ PointScheme::PointScheme(const fitting::LayoutContext& context, const StartOptio
   choose();
 }
 
-/// Points that are left to the clean-up, for smaller triangles where the boundary is ragged, and for the middle of
-/// small components: a share of the number of pieces and of components, and of the points at most.
+/// Points that are left to the clean-up: for smaller triangles where the boundary is ragged, for the middle of small
+/// components, and for curves inside. Their number follows from the pieces, components and curves, and is a share of
+/// the points at most.
 GlobalId PointScheme::reserve() const {
   double pieces = 0;
   for (const geometry::Loop& loop : given_.given_boundary.loops)
@@ -75,7 +76,8 @@ GlobalId PointScheme::reserve() const {
   const double points = static_cast<double>(*given_.options.points), components = given_.given_boundary.components();
   return static_cast<GlobalId>(
       std::fmin(StartRules::reserved_share * points, StartRules::reserved_per_piece * pieces) +
-      std::fmin(StartRules::reserved_for_components * points, StartRules::reserved_per_component * (components - 1)));
+      std::fmin(StartRules::reserved_for_components * points, StartRules::reserved_per_component * (components - 1)) +
+      static_cast<double>(fitting::reserved_for_curves(given_)));
 }
 
 double PointScheme::expected_points() const {

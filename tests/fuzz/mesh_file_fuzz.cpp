@@ -15,7 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto every_format = formats::all_formats();
   const std::size_t choice = size == 0 ? 0 : data[0] % (every_format.size() + 1);
   if (choice == every_format.size()) {
-    fuzz::survives([&] { app::info(path, file.comm()); });
+    fuzz::survives([&] { app::info(path, false, file.comm()); });
     return 0;
   }
   const auto& format = every_format[choice];

@@ -26,8 +26,8 @@ from trime_run import MPIEXEC, ROOT, Workspace, run
 
 ogr.UseExceptions()
 
-WORDS = "gmsh gmsh2 medit freefem triangle vtu 2dm fort14 geojson"
-ENDINGS = ["msh", "msh2", "mesh", "freefem", "node", "vtu", "2dm", "14", "geojson"]
+WORDS = "gmsh gmsh2 medit freefem triangle vtu 2dm fort14 geojson abaqus exodus"
+ENDINGS = ["msh", "msh2", "mesh", "freefem", "node", "vtu", "2dm", "14", "geojson", "inp", "exo"]
 OWN = """[shape]
 geometry = difference(union(open_sea, bay, sunk), island)
 [shape.open_sea]
@@ -488,7 +488,7 @@ class Formats(unittest.TestCase):
     def test_convert_makes_the_same_bytes_on_any_ranks(self):
         """The runs had 2 ranks."""
         for stem, ranks, endings in (("own", 3, ENDINGS), ("spade", 1, ["node", "14", "geojson"]),
-                                     ("layers", 3, ["msh", "mesh", "node", "vtu"])):
+                                     ("layers", 3, ["msh", "mesh", "node", "vtu", "inp", "exo"])):
             target = self.work / f"on_{ranks}"
             target.mkdir(exist_ok=True)
             for ending in endings:
@@ -528,6 +528,7 @@ class Formats(unittest.TestCase):
                  (["info"], USAGE, r"'trime_mpi info' needs one file, found 0 files"),
                  (["info", self.work / "own.xdmf"], FILE, r"it only describes a mesh file .* open .*own\.h5"),
                  ([self.work / "own.ini", "--degrees"], USAGE, r"'--degrees' belongs to 'trime_mpi convert'"),
+                 ([self.work / "own.ini", "--all"], USAGE, r"'--all' belongs to 'trime_mpi info'"),
                  (["info", plain], FILE, r"is not a mesh file"),
                  ([self.work / "own.ini", "--overwrite"], USAGE, r"'--overwrite' belongs to 'trime_mpi convert'"),
                  ([self.work / "own.ini", f"output.directory={self.work}", "output.formats=gmsh", "output.name=own",
@@ -644,6 +645,32 @@ class Formats(unittest.TestCase):
                 np.testing.assert_array_equal(np.bincount(file["VTKHDF/CellData/region"]),
                                               4 * np.bincount(coarse["VTKHDF/CellData/region"]))
         self.assertEqual(*made)
+
+    def test_info_of_long_lists(self):
+        """20 names of each list; all of them with --all."""
+        path = self.work / "long.h5"
+        shutil.copyfile(self.work / "layers.h5", path)
+        with h5py.File(path, "r+") as file:
+            tags = file["trime_mpi/tags"]
+            for name, values in (("part_name", [f"side {k}" for k in range(1000)]),
+                                 ("region_name", [f"unit {k}" for k in range(21)]),
+                                 ("region_id", np.arange(1, 22, dtype=np.int32))):
+                kind = tags[name].dtype
+                del tags[name]
+                tags.create_dataset(name, data=np.array(values, dtype="S10" if kind.kind == "S" else kind))
+            if "regions" in file["trime_mpi"]:
+                del file["trime_mpi/regions"]
+        done = run("info", path)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for words in (r"boundary edges in other formats: 1 side 0, 2 side 1, .*, 20 side 19, and 980 more\n",
+                      r"\nunit 19 +20\nand 1 more\n", r"\n'trime_mpi info .*long\.h5 --all' prints whole lists\n"):
+            self.assertRegex(done.stdout, words)
+        self.assertNotIn("unit 20", done.stdout)
+        done = run("info", path, "--all")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r", 1000 side 999\n")
+        self.assertRegex(done.stdout, r"\nunit 20 +21\n")
+        self.assertNotIn(" more", done.stdout)
 
     def test_info_of_damaged_tables(self):
         """Columns of unlike length, and one that claims far more rows than the file holds."""

@@ -146,7 +146,7 @@ class RegionMaps(unittest.TestCase):
 
     def test_too_few_points_for_the_grains(self):
         self.write_map(grains(150, 5))
-        for points in (200, 700):
+        for points in (200, 700, 800, 900):
             config = self.directory / "few.ini"
             config.write_text("[shape]\ngeometry = domain\n[region.g]\nfile = map.geojson\nattribute = unit\n"
                               f"[meshing]\npoints = {points}\n[output]\ndirectory = {self.directory}\nname = few\n"

@@ -14,12 +14,13 @@ import numpy as np
 
 from region_meshes import (Mesh, by_number, circle, lengths_of, read_by_meshio, read_freefem, read_triangle, rectangle,
                            region, rounded, shoelace, triangle)
+from solver_readers import Exo, Inp
 from trime_run import PROGRAM, Workspace, run
 
 CHECK = os.environ.get("TRIME_CHECK", str(pathlib.Path(PROGRAM).parent / "src" / "check" / "trime_check"))
 LAYOUTS = [(2, 1), (3, 2), (7, 1)]  # ranks, threads; the first mesh is made on 1 rank and 1 thread
 EXACT, WITH_SLIVERS = 1e-11, 1e-10
-ALL_FORMATS = "vtkhdf xdmf gmsh medit freefem triangle vtu"
+ALL_FORMATS = "vtkhdf xdmf gmsh medit freefem triangle vtu abaqus exodus"
 
 
 class RegionsTest(unittest.TestCase):
@@ -91,7 +92,8 @@ class RegionsTest(unittest.TestCase):
         found = {"gmsh": read_by_meshio(stem.with_suffix(".msh"), "gmsh:physical", "gmsh:physical"),
                  "medit": read_by_meshio(stem.with_suffix(".mesh"), "medit:ref", "medit:ref"),
                  "vtu": read_by_meshio(stem.with_suffix(".vtu"), "label", "region"),
-                 "freefem": read_freefem(stem.with_suffix(".freefem")), "triangle": read_triangle(stem)}
+                 "freefem": read_freefem(stem.with_suffix(".freefem")), "triangle": read_triangle(stem),
+                 "abaqus": Inp(stem.with_suffix(".inp")).sums(), "exodus": Exo(stem.with_suffix(".exo")).sums()}
         for name, (areas, lengths) in found.items():
             for expected, sums in zip(wanted, (areas, lengths)):
                 self.assertEqual(set(sums), set(expected), name)
@@ -199,6 +201,20 @@ class Regions(RegionsTest):
         self.assertAlmostEqual(mesh.area("rest") - outer, 0.7172566611769186, delta=WITH_SLIVERS)
         self.assertEqual([mesh.euler(name) for name in ("core", "ring", "rest")], [1, 0, 0])
         self.assertEqual(mesh.junctions(), {})
+
+    def test_small_discs(self):
+        """Where few triangles lie across a disc, the clean-up must insert points, and move those on the interface."""
+        radii = [0.045 + 0.004 * k for k in range(9)]  # 4.5 to 7.7 edges
+        text = "".join(circle(f"c{k}", radius, f"{1 / 6 + k % 3 / 3!r} {1 / 6 + k // 3 / 3!r}")
+                       for k, radius in enumerate(radii))
+        text += region("discs", f"union({', '.join(f'c{k}' for k in range(9))})")
+        mesh = self.same_on_all(text, points=11500)
+        self.assertLessEqual(mesh.alpha(), 1.11)
+        ends = np.unique(mesh.edges)
+        for k, radius in enumerate(radii):
+            away = np.hypot(*(mesh.points[ends] - (1 / 6 + k % 3 / 3, 1 / 6 + k // 3 / 3)).T)
+            self.assertLessEqual(np.abs(away[away < 1 / 6] - radius).max(), 1e-12)
+        self.assertAlmostEqual(mesh.area("discs"), math.pi * sum(radius**2 for radius in radii), delta=0.02)
 
     def test_order_of_overlapping_regions(self):
         parts = rectangle("west", (0, 0), (0.6, 1)) + rectangle("east", (0.4, 0), (1, 1))

@@ -243,6 +243,10 @@ class Splits(unittest.TestCase):
         self.write("stem", [(0.5, 0.2), (0.5, 0.8)])
         mesh = self.mesh(split("bar") + split("stem"), ranks=3)
         self.assertEqual(mesh.copies()[(0.5, 0.5)], 4)
+        info = run("info", self.directory / "mesh.h5")
+        copies = sum(count - 1 for count in mesh.copies().values())
+        self.assertIn(f"split curves  {len(mesh.pairs)} pairs of points on {len(np.unique(mesh.paths))} paths; "
+                      f"{copies} points are copies of others\n", info.stdout)
         self.assertEqual(len(np.unique(mesh.paths)), 4)
         self.assertAlmostEqual(mesh.length("bar"), 1.2, delta=TOLERANCE)
         self.assertAlmostEqual(mesh.length("stem"), 1.2, delta=TOLERANCE)

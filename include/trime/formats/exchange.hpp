@@ -21,7 +21,22 @@ struct FilePlan;
 
 /// The output formats. vtkhdf and xdmf describe the arrays of NAME.h5 for other readers, text has the files of TriMe++,
 /// gmsh is MSH 4.1, gmsh2 MSH 2.2, sms is .2dm.
-enum class Format { vtkhdf, xdmf, text, gmsh, gmsh2, medit, freefem, triangle, vtu, sms, adcirc, geojson };
+enum class Format {
+  vtkhdf,
+  xdmf,
+  text,
+  gmsh,
+  gmsh2,
+  medit,
+  freefem,
+  triangle,
+  vtu,
+  sms,
+  adcirc,
+  geojson,
+  abaqus,
+  exodus
+};
 
 /// One row of the table of formats. Config, --help, `trime_mpi convert` and the output of a run take all facts about a
 /// format from this row.

@@ -65,6 +65,36 @@ TEST(TextRows, ComeInOrderOverManySlices) {
   EXPECT_TRUE(texts_in(directory.path())["rows.txt"] == expected);
 }
 
+TEST(TextRows, OfShortAndLongArraysStandInTheOrderOfTheArrays) {
+  const comm::Communicator comm = comm::Communicator::world();
+  const test::TemporaryDirectory directory(comm);
+  std::vector<io::TextRows> arrays;
+  std::string expected;
+  for (std::int64_t number = 0; number < 300; ++number) {
+    const std::int64_t total = number % 100 == 42 ? 200000 : number % 7 == 3 ? 0 : number * 13 % 997;
+    std::int64_t rows = 0;
+    const mesh::Slab slab = test::share(comm, total, static_cast<std::uint64_t>(number), rows);
+    const auto append = [number](std::int64_t row, std::string& text) {
+      if (row % 5 == 2) // a row without a line
+        return;
+      io::append_number(text, number);
+      text += ' ';
+      io::append_number(text, row);
+      text += '\n';
+    };
+    arrays.push_back(
+        {rows, [first = slab.first, append](std::int64_t row, std::string& text) { append(first + row, text); }});
+    for (std::int64_t row = 0; row < total; ++row)
+      append(row, expected);
+  }
+  io::write_text_rows(directory.path() + "/rows.txt", arrays, nullptr, comm);
+  io::write_text_rows(directory.path() + "/empty.txt", {}, nullptr, comm);
+  if (!comm.is_root())
+    return;
+  EXPECT_TRUE(texts_in(directory.path())["rows.txt"] == expected);
+  EXPECT_EQ(texts_in(directory.path())["empty.txt"], "");
+}
+
 TEST(TextMesh, HasTheSameBytesOnAnyDistribution) {
   const comm::Communicator comm = comm::Communicator::world(), self = comm::Communicator::self();
   const mesh::DistributedMesh whole = test::holed_square(cells);
