@@ -57,6 +57,15 @@ def grains(count, seed):
             for k in range(count)]
 
 
+def labels(count, kinds, noise, seed):
+    """Labels of count x count cells: patches of about 8 cells with rough borders, and single cells by noise."""
+    draw = np.random.default_rng(seed)
+    f = np.fft.fftfreq(count)
+    low = np.exp(-100 * (f[:, None]**2 + f[None, :]**2))
+    fields = [np.real(np.fft.ifft2(np.fft.fft2(draw.normal(size=(count, count))) * low)) for _ in range(kinds)]
+    return np.argmax([x / x.std() + noise * draw.normal(size=x.shape) for x in fields], axis=0) + 1
+
+
 def exact(points):
     """The temperature around the disc in a uniform flow along x."""
     x, y = (points - 0.5).T
@@ -148,6 +157,34 @@ class RegionMaps(WorkspaceCase):
             self.assertIn(done.returncode, (0, 2, 3), done.stdout + done.stderr)
             if done.returncode:
                 self.assertIn("are too few", done.stderr)
+
+    def test_labels_that_are_smaller_than_the_triangles(self):
+        checkers = np.indices((64, 64)).sum(axis=0) % 2 + 1
+        for cells, points in ((checkers, 500), (labels(64, 4, 0.0, 1), 500), (labels(64, 4, 1.0, 2), 1500),
+                              (labels(64, 3, 0.3, 3), 3000)):
+            (self.directory / "cells.asc").write_text(
+                f"ncols 64\nnrows 64\nxllcorner 0\nyllcorner 0\ncellsize {1 / 64!r}\n"
+                + "".join(" ".join(map(str, row)) + "\n" for row in cells))
+            mesh = self.same_on_three_ranks("[shape]\ngeometry = domain\n[region.cover]\nfile = cells.asc\n", points)
+            self.assertAlmostEqual(math.fsum(mesh.areas), 1, delta=1e-12)
+            self.assertLess(len(mesh.points), 1.01 * points)
+
+    def test_two_versions_of_one_coast(self):
+        noise = random.Random(7).uniform
+        turns = [2 * math.pi * k / 2000 for k in range(2000)]
+
+        def version():
+            radii = [0.3 + 0.05 * math.sin(5 * t) + 0.02 * math.sin(37 * t) + noise(-2e-4, 2e-4) for t in turns]
+            return [[0.5 + r * math.cos(t), 0.5 + r * math.sin(t)] for r, t in zip(radii, turns)]
+
+        land, hole = feature("land", version()), version()[::-1]
+        sea = feature("sea", [(0.05, 0.05), (0.95, 0.05), (0.95, 0.95), (0.05, 0.95)])
+        sea["geometry"]["coordinates"].append([*hole, hole[0]])
+        self.write_map([land, sea])
+        mesh = self.same_on_three_ranks(
+            "[shape]\ngeometry = domain\n[region.g]\nfile = map.geojson\nattribute = unit\n", 3000)
+        self.assertEqual(set(mesh.names[k] for k in np.unique(mesh.region)), {"domain", "g.land", "g.sea"})
+        self.assertLess(mesh.alpha(), 1.5)
 
     def test_a_size_for_each_region(self):
         sizing = "[sizing]\nscale = absolute\nmax_size = 0.03\ngradation = 0.2\n"
