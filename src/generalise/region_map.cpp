@@ -205,7 +205,7 @@ void RegionMap::set_labels() {
 bool RegionMap::wants_node(HalfEdge e) const {
   const LocalIndex a = mesh_.origin(e), b = mesh_.target(e), apex = mesh_.origin(Triangulation::previous(e));
   if (!mesh_.is_constrained(e) || strands_[at(mesh_.mark_of_edge(e))].arc < 0 || apex < 4 || is_held(a) || is_held(b) ||
-      label(Triangulation::triangle(e)) == outside)
+      given_label(e) == outside)
     return false;
   const double width = GeneraliseRules::narrow_region * std::fmin(size(a), size(b));
   const Vec2 along = mesh_.point(b) - mesh_.point(a), across = mesh_.point(apex) - mesh_.point(a);
@@ -226,20 +226,21 @@ bool RegionMap::add_node(HalfEdge e) {
 }
 
 void RegionMap::add_nodes_to_narrow_parts() {
-  for (int round = 0; round < GeneraliseRules::node_rounds; ++round) {
+  bool is_finished = false, has_new = false;
+  for (int round = 0; round < GeneraliseRules::node_rounds && !is_finished; ++round) {
     std::vector<std::array<LocalIndex, 2>> wanted;
     for (HalfEdge e = 0; e < 3 * mesh_.triangle_count(); ++e)
       if (wants_node(e))
         wanted.push_back({std::min(mesh_.origin(e), mesh_.target(e)), std::max(mesh_.origin(e), mesh_.target(e))});
     std::sort(wanted.begin(), wanted.end());
     wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
-    bool any = false;
+    is_finished = true;
     for (const auto& [a, b] : wanted)
-      any |= add_node(mesh_.find_edge(a, b));
-    if (!any)
-      return;
-    set_labels(); // of the new triangles, too
+      if (add_node(mesh_.find_edge(a, b)))
+        is_finished = false, has_new = true;
   }
+  if (has_new)
+    set_labels();
 }
 
 double RegionMap::area(LocalIndex t) const {

@@ -263,8 +263,10 @@ Partition simplify_partition(const geometry::InnerCurves& curves, const geometry
   std::vector<InnerArc> given = made.curves.arcs;
   const FlowRequest flow{request.size, boundary.bounding_box(), GeneraliseRules::flow_reach, request.kept};
   made.curves.arcs = smooth_arcs(given, made.boundary, flow, request.lattice);
-  for (int round = 0; round < most_rounds; ++round) {
+  for (int round = 0;; ++round) {
     made.curves = thin_arcs(made.curves, made.boundary, request, given);
+    if (round == most_rounds)
+      break; // arcs are thin in the end
     std::optional<Partition> wide = absorb_parts(made.curves, made.boundary, beyond_tips, pairs, SmallParts::and_necks);
     if (!wide)
       break;
