@@ -13,6 +13,7 @@ import random
 import subprocess
 import unittest
 
+import h5py
 import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import spsolve
@@ -162,12 +163,49 @@ class RegionMaps(WorkspaceCase):
         checkers = np.indices((64, 64)).sum(axis=0) % 2 + 1
         for cells, points in ((checkers, 500), (labels(64, 4, 0.0, 1), 500), (labels(64, 4, 1.0, 2), 1500),
                               (labels(64, 3, 0.3, 3), 3000)):
-            (self.directory / "cells.asc").write_text(
-                f"ncols 64\nnrows 64\nxllcorner 0\nyllcorner 0\ncellsize {1 / 64!r}\n"
-                + "".join(" ".join(map(str, row)) + "\n" for row in cells))
+            self.write_labels(cells)
             mesh = self.same_on_three_ranks("[shape]\ngeometry = domain\n[region.cover]\nfile = cells.asc\n", points)
             self.assertAlmostEqual(math.fsum(mesh.areas), 1, delta=1e-12)
             self.assertLess(len(mesh.points), 1.01 * points)
+
+    def write_labels(self, cells):
+        rows, columns = cells.shape
+        (self.directory / "cells.asc").write_text(
+            f"ncols {columns}\nnrows {rows}\nxllcorner 0\nyllcorner 0\ncellsize {1 / columns!r}\n"
+            + "".join(" ".join(map(str, row)) + "\n" for row in cells))
+
+    def balance(self, mesh):
+        """The area of each region in the mesh, with what it lost and without what it gained, minus its given area."""
+        with h5py.File(self.directory / "mesh.h5") as file:
+            rows = file["/trime_mpi/region_losses"]
+            losses = list(zip(rows["loser"][:], rows["winner"][:], rows["area"][:]))
+        kept = dict(zip(mesh.table["region_id"], mesh.table["area"] - mesh.table["given_area"]))
+        for loser, winner, area in losses:
+            kept[loser] += area
+            kept[winner] -= area
+        return list(kept.values())
+
+    def test_cells_that_are_smaller_than_the_triangles(self):
+        text = "[shape]\ngeometry = domain\n[region.cover]\nfile = cells.asc\n"
+        for seed, noise in ((11, 0.5), (12, 0.0)):
+            self.write_labels(labels(48, 3, noise, seed))
+            mesh = self.same_on_three_ranks(text, 400)
+            self.assertLess(np.abs(self.balance(mesh)).max(), 1e-9)
+            self.assertLess(mesh.alpha(), 3)
+
+        # Two grains that are 1.6 h wide stay, the passage of one cell between them and single cells go.
+        cells = np.full((64, 64), 1)
+        cells[20:30, 10:20] = cells[20:30, 40:50] = cells[25, 20:40] = 2
+        cells[45:60:5, 5:60:5] = 3
+        self.write_labels(cells)
+        mesh = self.same_on_three_ranks(text, 120)
+        self.assertIn("the region 'cover.3', of area 0.00805664, has no triangles", self.report)
+        self.assertLess(np.abs(self.balance(mesh)).max(), 1e-9)
+        centers = mesh.points[mesh.triangles].mean(axis=1)[:, 0]
+        grain = mesh.region == mesh.numbers["cover.2"]
+        self.assertFalse((grain & (0.35 < centers) & (centers < 0.6)).any())
+        for is_here in (centers < 0.35, centers > 0.6):
+            self.assertAlmostEqual(mesh.areas[grain & is_here].sum(), (10 / 64)**2, delta=0.1 * (10 / 64)**2)
 
     def test_two_versions_of_one_coast(self):
         noise = random.Random(7).uniform
