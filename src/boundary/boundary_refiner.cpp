@@ -369,8 +369,12 @@ LocalIndex BoundaryRefiner::divide(const Cut& cut) {
        (boundary_.periods.same_point(sites_[cut.intruder].position, a.position) ||
         boundary_.periods.same_point(sites_[cut.intruder].position, b.position))))
     fail(cut);
-  const CutPlace place = cut_place(a, b, end);
+  CutPlace place = cut_place(a, b, end);
   Vec2 position = lattice_.snap(metric.point(place.t));
+  if (position == a.position || position == b.position) { // the curve passes an end of the chord, or turns there
+    place = {0.5 * (a.t + end)};
+    position = lattice_.snap(metric.point(place.t));
+  }
   if (position == a.position || position == b.position)
     fail(cut);
   const bool round = place.t >= metric.total();

@@ -183,8 +183,11 @@ std::unique_ptr<BoundaryRefiner> make_refiner(const LayoutContext& context, std:
       context.options.features.components, context.options.features.component_place,
       generalises(context) && !context.given_boundary.periods.any() ? context.options.features.tolerance : 0};
   const geometry::Boundary& boundary = generalised_curves(context, fitted, stage);
-  const auto curves = std::make_shared<const boundary::LaidCurves>(
-      boundary, inner_curves(context, stage.asked_size(), boundary, fitted.curves), context.fixed.on_curves());
+  const geometry::InnerCurves& inner = inner_curves(context, stage.asked_size(), boundary, fitted.curves);
+  if (fitted.curves.relabelled)
+    stage.curves = fitted.curves.relabelled;
+  const auto curves = std::make_shared<const boundary::LaidCurves>(stage.curves ? *stage.curves : boundary, inner,
+                                                                   context.fixed.on_curves());
   const auto make = [&](const BoundarySizes& sizes) {
     return std::make_unique<BoundaryRefiner>(curves, sizes, context.lattice,
                                              boundary::LayoutRequest{context.options.features.corner_angle,
@@ -194,7 +197,8 @@ std::unique_ptr<BoundaryRefiner> make_refiner(const LayoutContext& context, std:
   if (stage.size->is_uniform() || stage.limited_size ||
       stage.raised_size) // samples of a steep size would lie too far apart
     return make({*stage.size, asked});
-  std::shared_ptr<const SizeSamples>& samples = stage.curves ? fitted.curves.samples : fitted.samples;
+  const bool depends = stage.curves || fitted.curves.inner; // the curves are others at another factor
+  std::shared_ptr<const SizeSamples>& samples = depends ? fitted.curves.samples : fitted.samples;
   if (!samples || !samples->serve(fitted.factor))
     samples = std::make_shared<SizeSamples>(curves->all(), context.relative_size, *stage.scaled_size);
   return make({*stage.size, asked, {*samples, *stage.scaled_size, stage.lowered_size.get(), stage.coarsening}});

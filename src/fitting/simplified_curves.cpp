@@ -136,15 +136,33 @@ void simplify_curves(const LayoutContext& context, const sizing::SizeField& aske
   curves.found = std::move(found);
 }
 
+namespace {
+
+/// The places at which the user wants vertices, in lexicographic order.
+std::vector<Vec2> kept_places(const LayoutContext& context) {
+  std::vector<Vec2> kept(context.fixed.on_curves().begin(), context.fixed.on_curves().end());
+  for (const geometry::FixedPoint& point : context.domain.fixed_points())
+    kept.push_back(context.lattice.snap(point.position));
+  std::sort(kept.begin(), kept.end(), geometry::lexicographically_less);
+  return kept;
+}
+
+} // namespace
+
 const geometry::InnerCurves& inner_curves(const LayoutContext& context, const sizing::SizeField& asked,
                                           const Boundary& boundary, CurvesAtSize& curves) {
   const geometry::InnerCurves& given = context.domain.curves();
   if (given.empty() || !generalises(context) || boundary.periods.any())
     return given;
   if (!curves.inner || curves.inner_factor != curves.factor) {
-    curves.inner = std::make_shared<geometry::InnerCurves>(generalise::thin_inner_curves(
-        given, boundary, generalised_size(context, asked), context.lattice, context.fixed.on_curves()));
+    const std::vector<Vec2> kept = kept_places(context);
+    const sizing::ScaledSize size = generalised_size(context, asked);
+    generalise::Partition made =
+        generalise::simplify_partition(given, boundary, {size, context.lattice, kept}, context.domain.regions().pairs);
+    curves.inner = std::make_shared<geometry::InnerCurves>(std::move(made.curves));
+    curves.relabelled = made.is_relabelled ? std::make_shared<geometry::Boundary>(std::move(made.boundary)) : nullptr;
     curves.inner_factor = curves.factor;
+    curves.samples = nullptr;
   }
   return *curves.inner;
 }

@@ -20,6 +20,8 @@ struct CurvesAtSize {
   std::shared_ptr<const generalise::Generalised> found; ///< null if nothing was simplified
   std::shared_ptr<const boundary::SizeSamples> samples; ///< samples of the relative size on it; made when needed
   std::shared_ptr<const geometry::InnerCurves> inner;   ///< the curves inside, simplified; null if they are not
+  std::shared_ptr<const geometry::Boundary> relabelled; ///< the boundary with other regions along it, where `inner` has
+                                                        ///< given parts of regions away; null if it is as before
   double inner_factor = 0;                              ///< the value of `factor` for which `inner` was made
   bool held = false;                                    ///< if true, the curves are also used at other factors
 
@@ -50,7 +52,7 @@ sizing::ScaledSize generalised_size(const LayoutContext& context, const sizing::
 void simplify_curves(const LayoutContext& context, const sizing::SizeField& asked, double factor, CurvesAtSize& curves);
 
 /// @brief Returns the curves inside the shape at the resolution of the size for which the boundary was simplified.
-/// Local: all ranks get the same result. @pre simplify_curves was called
+/// Sets CurvesAtSize::relabelled. Local: all ranks get the same result. @pre simplify_curves was called
 /// @param boundary the boundary that is meshed
 const geometry::InnerCurves& inner_curves(const LayoutContext& context, const sizing::SizeField& asked,
                                           const geometry::Boundary& boundary, CurvesAtSize& curves);

@@ -160,6 +160,7 @@ private:
         !keeps_all_curves(edge, arms, to))
       return false;
     tree_.remove(nodes_.vertices.at(key(from)));
+    note_loss_of(arcs_[edge]);
     remove(edge);
     for (const Arm& arm : arms)
       if (arm.arc != edge)
@@ -184,9 +185,10 @@ private:
   void merge(const Arm& arm, const Arm& beside) {
     InnerArc& stays = arcs_[beside.arc];
     if (const auto [left, right] = sides_of_both(arm, beside); left != stays.left || right != stays.right) {
+      note_loss_of(stays);
+      stays.lost_area = 0; // of another pair
       stays.left = left;
       stays.right = right;
-      stays.lost_area = 0; // of another pair
     }
     if (curve(beside.arc) < 0 && curve(arm.arc) >= 0) {
       --arcs_of_[curve(beside.arc)];
@@ -195,6 +197,7 @@ private:
       if (arm.at_end != beside.at_end)
         turn_round(beside.arc); // edges have the direction of their curve
     }
+    note_loss_of(arcs_[arm.arc]);
     remove(arm.arc);
     if (stays.left == stays.right && curve(beside.arc) < 0)
       remove(beside.arc);
@@ -203,6 +206,7 @@ private:
   void turn_round(std::size_t arc) {
     InnerArc& turned = arcs_[arc];
     std::swap(turned.left, turned.right);
+    turned.lost_area = -turned.lost_area;
     std::swap(turned.pieces[0].start, turned.pieces[0].end);
     for (const Vec2 p : {start(arc), end(arc)})
       for (Arm& arm : arms_.at(key(p)))
@@ -220,6 +224,16 @@ private:
                                 geometry::LossReason::close_nodes, std::fabs(to_left), 1, std::fabs(to_left), from});
   }
 
+  /// Notes what an arc that goes has taken from its left side before.
+  void note_loss_of(const InnerArc& arc) {
+    if (arc.lost_area == 0)
+      return;
+    const bool left_loses = arc.lost_area > 0;
+    const double area = std::fabs(arc.lost_area);
+    curves_.losses.push_back({left_loses ? arc.left : arc.right, left_loses ? arc.right : arc.left,
+                              geometry::LossReason::thinning, area, 1, area, arc.pieces.front().start});
+  }
+
   geometry::InnerCurves& curves_;
   std::vector<InnerArc>& arcs_;
   const Nodes& nodes_;
@@ -235,7 +249,7 @@ private:
 
 void join_close_nodes(geometry::InnerCurves& curves, const Nodes& nodes, const sizing::SizeField& size,
                       VertexTree& tree) {
-  curves.joined_nodes = NodeJoiner(curves, nodes, size, tree).run();
+  curves.joined_nodes += NodeJoiner(curves, nodes, size, tree).run();
 }
 
 } // namespace trime::generalise

@@ -29,7 +29,7 @@ struct Nodes {
 /// them; it keeps its own curve if it has one. They stay two if they separate two regions that were not neighbours
 /// before. Free ends of curves stay, too, and so does the last edge of a curve. Arcs do not cross each other
 /// afterwards: the triangle over which an edge moves holds no vertex. Where two regions touched along the edge, the
-/// other regions around it touch in the node. Sets InnerCurves::joined_nodes, and adds to InnerCurves::losses.
+/// other regions around it touch in the node. Adds to InnerCurves::joined_nodes and losses.
 /// Cost: O(n log n) for n arcs.
 void join_close_nodes(geometry::InnerCurves& curves, const Nodes& nodes, const sizing::SizeField& size,
                       VertexTree& tree);

@@ -15,7 +15,8 @@ namespace trime::generalise {
 struct ArcRequest {
   const sizing::SizeField& size;
   const geometry::Lattice& lattice;
-  std::span<const geometry::Vec2> kept; ///< vertices that stay, and nodes whose wedges stay, in lexicographic order
+  std::span<const geometry::Vec2> kept;   ///< vertices that stay, and nodes whose wedges stay, in lexicographic order
+  std::span<const geometry::Vec2> tips{}; ///< nodes at which absorb_parts() leaves narrow ends, in the same order
 };
 
 /// @brief Cuts narrow wedges where they become as wide as GeneraliseRules::narrow_inside. The tip belongs to the region

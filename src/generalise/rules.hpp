@@ -58,6 +58,18 @@ struct GeneraliseRules {
   /// [h] Two nodes of curves and interfaces that are joined by a shorter edge become one node, because shorter edges
   /// need triangles that are as small. Not measured.
   static constexpr double node_distance = 0.1;
+  /// [h] A connected part of a region with a shorter perimeter belongs to the region next to it. Not measured.
+  static constexpr double smallest_face = 3;
+  /// [h] So does a part whose area is smaller than this times half of its perimeter. Not measured.
+  static constexpr double narrowest_face = 0.1;
+  /// [h] Narrow passages of a region, and narrow ends of it at the boundary, belong to the region next to them if they
+  /// are narrower than this. Not measured.
+  static constexpr double narrow_region = 0.35;
+  /// [1] So does a narrow end whose width is smaller than this times its depth: a tip of less than 20 degrees. Not
+  /// measured.
+  static constexpr double thin_tip = 0.35;
+  /// [h] Such tips are cut where they have this width. Not measured.
+  static constexpr double cut_tip = 0.25;
   /// [h] Ragged runs of a curve lose vertices that are nearer to each other. Measured on twelve meshes of coasts: with
   /// 0.05, the simplification takes 1.25 times as long, the mean of the largest alphas is 1.250 instead of 1.238, and
   /// that of the smallest angles 35.3 degrees instead of 37.1.

@@ -26,7 +26,7 @@ public:
   SmoothArcs(const std::vector<InnerArc>& given, const Boundary& boundary, const FlowRequest& request,
              const geometry::Lattice& lattice)
       : given_(given), boundary_(boundary), request_(request), lattice_(lattice), arcs_(given),
-        is_smooth_(given.size(), 0), rounds_(given.size(), 0) {
+        is_smooth_(given.size(), 0), is_new_(given.size(), 1), rounds_(given.size(), 0) {
     for (const InnerArc& arc : given)
       if (!arc.closed)
         for (const Vec2 node : {arc.pieces.front().start, arc.pieces.back().end})
@@ -42,11 +42,13 @@ public:
       std::vector<char> is_bad(arcs_.size(), 0);
       find_crossings(is_bad);
       find_turned_nodes(is_bad);
+      std::ranges::fill(is_new_, 0);
       bool any = false;
       for (std::size_t k = 0; k < arcs_.size(); ++k)
         if (is_bad[k] != 0 && is_smooth_[k] != 0) {
           ++rounds_[k];
           smooth(k);
+          is_new_[k] = 1;
           any = true;
         }
       if (!any)
@@ -69,7 +71,7 @@ private:
     }
   }
 
-  /// Marks arcs that meet a smooth one outside of their nodes.
+  /// Marks arcs that meet a smooth one outside of their nodes, if one of the two has changed in the last round.
   void find_crossings(std::vector<char>& is_bad) const {
     Boundary all = boundary_;
     std::vector<std::size_t> arc_of; // by piece; the number of arcs for the boundary
@@ -86,17 +88,19 @@ private:
     const geometry::PieceTree tree(all);
     for (std::size_t k = 0; k < pieces.size(); ++k) {
       const Piece& piece = *pieces[k];
-      if (arc_of[k] == arcs_.size() || is_smooth_[arc_of[k]] == 0 || piece.circular)
+      if (arc_of[k] == arcs_.size() || is_new_[arc_of[k]] == 0 || piece.circular)
         continue;
       const double reach = 0.51 * length(piece.end - piece.start);
       for (const std::size_t other : tree.within(0.5 * (piece.start + piece.end), reach))
-        if (other != k && meet(piece, *pieces[other])) {
+        if (other != k && (is_smooth_[arc_of[k]] != 0 || is_smooth(arc_of[other])) && meet(piece, *pieces[other])) {
           is_bad[arc_of[k]] = 1;
           if (arc_of[other] < arcs_.size())
             is_bad[arc_of[other]] = 1;
         }
     }
   }
+
+  bool is_smooth(std::size_t arc) const { return arc < arcs_.size() && is_smooth_[arc] != 0; }
 
   /// A curve that begins or ends at a node, and its direction there.
   struct Arm {
@@ -154,6 +158,7 @@ private:
   const geometry::Lattice& lattice_;
   std::vector<InnerArc> arcs_;
   std::vector<char> is_smooth_; // by arc
+  std::vector<char> is_new_;    // by arc: made in the last round
   std::vector<int> rounds_;     // by arc: how often its reach was halved
   Arms nodes_;                  // without arms
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "generalise/thin_inner_curves.hpp"
 
+#include "generalise/absorb_parts.hpp"
 #include "generalise/close_nodes.hpp"
 #include "generalise/cut_wedges.hpp"
 #include "generalise/rules.hpp"
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -73,8 +75,8 @@ class ArcThinner {
 public:
   /// @param must_bend the arc may not become one straight edge
   ArcThinner(const InnerArc& arc, std::vector<LocalIndex> vertices, bool must_bend, const Thinning& thinning)
-      : arc_(arc), vertices_(std::move(vertices)), must_bend_(must_bend), size_(thinning.size), tree_(thinning.tree),
-        corners_(thinning.corners) {
+      : arc_(arc), vertices_(std::move(vertices)), least_left_(least_vertices(arc, must_bend)), size_(thinning.size),
+        tree_(thinning.tree), corners_(thinning.corners) {
     const std::size_t n = vertices_.size();
     for (std::size_t k = 0; k < n; ++k) {
       next_.push_back(k + 1 < n ? k + 1 : 0);
@@ -95,8 +97,7 @@ public:
     };
     for (std::size_t k = 0; k < vertices_.size(); ++k)
       enter(k, 0);
-    const std::size_t least_left = arc_.closed ? GeneraliseRules::least_vertices : must_bend_ ? 3 : 2;
-    while (!queue.empty() && left_ > least_left) {
+    while (!queue.empty() && left_ > least_left_) {
       const auto [area, k] = *queue.begin();
       queue.erase(queue.begin());
       if (!has_way(k, area))
@@ -115,6 +116,13 @@ public:
   }
 
 private:
+  /// An arc from a node to itself must enclose something.
+  static std::size_t least_vertices(const InnerArc& arc, bool must_bend) {
+    if (arc.closed)
+      return GeneraliseRules::least_vertices;
+    return arc.pieces.front().start == arc.pieces.back().end ? 4 : must_bend ? 3 : 2;
+  }
+
   Vec2 place(std::size_t k) const { return k < arc_.pieces.size() ? arc_.pieces[k].start : arc_.pieces.back().end; }
 
   /// Ends of an open arc stay, and what the user asked for.
@@ -154,7 +162,7 @@ private:
 
   const InnerArc& arc_;
   const std::vector<LocalIndex> vertices_; // numbers in the tree
-  const bool must_bend_;
+  const std::size_t least_left_;
   const sizing::SizeField& size_;
   VertexTree& tree_;
   std::span<const Vec2> corners_;
@@ -183,13 +191,13 @@ void note_loss(const InnerArc& given, InnerArc& arc) {
     return;
   const Vec2 place = given.pieces.front().start;
   arc.is_simplified = true;
-  arc.lost_area = area_beside(given, place) - area_beside(arc, place);
+  arc.lost_area = given.lost_area + area_beside(given, place) - area_beside(arc, place);
 }
 
 /// Removes vertices of all arcs, and joins close nodes. @param given the arcs before any simplification
 geometry::InnerCurves thin_arcs(const geometry::InnerCurves& curves, const geometry::Boundary& boundary,
                                 const ArcRequest& request, const std::vector<InnerArc>& given) {
-  const auto& [size, lattice, corners] = request;
+  const auto& [size, lattice, corners, tips] = request;
   const geometry::Boundary all = all_curves(curves, boundary);
   VertexTree tree(all, lattice, {});
   Nodes ends{.kept = corners};
@@ -218,7 +226,7 @@ geometry::InnerCurves thin_arcs(const geometry::InnerCurves& curves, const geome
       ends.rim_vertices = std::max(ends.rim_vertices, vertex + 1);
   const std::span<const std::vector<LocalIndex>> of_arcs = std::span(vertices).subspan(boundary.loops.size());
   const ArcEnds arc_ends(curves.arcs, of_arcs, ends.rim_vertices);
-  geometry::InnerCurves thinned{{}, curves.names, {}, {}, 0, curves.kinds};
+  geometry::InnerCurves thinned{{}, curves.names, {}, {}, curves.joined_nodes, curves.kinds, curves.losses};
   for (std::size_t k = 0; k < curves.arcs.size(); ++k)
     thinned.arcs.push_back(
         ArcThinner(curves.arcs[k], of_arcs[k], arc_ends.must_bend(of_arcs[k]), {size, tree, corners}).run());
@@ -228,18 +236,52 @@ geometry::InnerCurves thin_arcs(const geometry::InnerCurves& curves, const geome
   return thinned;
 }
 
+// Arcs that have merged become simpler, and then further parts may be narrow.
+constexpr int most_rounds = 6;
+
 } // namespace
+
+Partition simplify_partition(const geometry::InnerCurves& curves, const geometry::Boundary& boundary,
+                             const ArcRequest& request, std::span<const std::array<int, 2>> pairs) {
+  std::optional<Partition> large = absorb_parts(curves, boundary, request, pairs, SmallParts::faces);
+  Partition made = large ? std::move(*large) : Partition{curves, boundary, false};
+  made.curves.on_boundary.clear();
+  made.curves.outside.clear();
+  std::vector<geometry::NarrowWedge> wedges = geometry::narrow_wedges(made.curves.arcs, made.boundary);
+  if (large)
+    std::erase_if(wedges, [&](const geometry::NarrowWedge& wedge) {
+      const std::array<int, 2> pair{std::min(wedge.left_region, wedge.right_region),
+                                    std::max(wedge.left_region, wedge.right_region)};
+      return pair[0] != pair[1] && !std::ranges::binary_search(pairs, pair);
+    });
+  std::vector<Vec2> tips; // which cut_wedges treats
+  for (const geometry::NarrowWedge& wedge : wedges)
+    tips.push_back(wedge.node);
+  std::sort(tips.begin(), tips.end(), geometry::lexicographically_less);
+  ArcRequest beyond_tips = request;
+  beyond_tips.tips = tips;
+  std::vector<InnerArc> given = made.curves.arcs;
+  const FlowRequest flow{request.size, boundary.bounding_box(), GeneraliseRules::flow_reach, request.kept};
+  made.curves.arcs = smooth_arcs(given, made.boundary, flow, request.lattice);
+  for (int round = 0;; ++round) {
+    made.curves = thin_arcs(made.curves, made.boundary, request, given);
+    if (round == most_rounds)
+      break; // arcs are thin in the end
+    std::optional<Partition> wide = absorb_parts(made.curves, made.boundary, beyond_tips, pairs, SmallParts::and_necks);
+    if (!wide)
+      break;
+    made = std::move(*wide);
+    given = made.curves.arcs;
+  }
+  cut_wedges(made.curves, wedges, made.boundary, request);
+  geometry::set_wedges(made.curves.arcs, made.boundary);
+  return made;
+}
 
 geometry::InnerCurves thin_inner_curves(const geometry::InnerCurves& curves, const geometry::Boundary& boundary,
                                         const sizing::SizeField& size, const geometry::Lattice& lattice,
                                         std::span<const Vec2> corners) {
-  const FlowRequest request{size, boundary.bounding_box(), GeneraliseRules::flow_reach, corners};
-  const geometry::InnerCurves smooth{smooth_arcs(curves.arcs, boundary, request, lattice), curves.names};
-  const ArcRequest all{size, lattice, corners};
-  geometry::InnerCurves thinned = thin_arcs(smooth, boundary, all, curves.arcs);
-  cut_wedges(thinned, geometry::narrow_wedges(curves.arcs, boundary), boundary, all);
-  geometry::set_wedges(thinned.arcs, boundary);
-  return thinned;
+  return simplify_partition(curves, boundary, {size, lattice, corners}, {}).curves;
 }
 
 } // namespace trime::generalise

@@ -2,11 +2,14 @@
 // Simplifies the curves inside a shape to the resolution of a mesh.
 #pragma once
 
+#include "generalise/absorb_parts.hpp"
+
 #include "trime/geometry/boundary.hpp"
 #include "trime/geometry/lattice.hpp"
 #include "trime/geometry/vec2.hpp"
 #include "trime/sizing/size_field.hpp"
 
+#include <array>
 #include <span>
 
 namespace trime::generalise {
@@ -28,5 +31,13 @@ namespace trime::generalise {
 geometry::InnerCurves thin_inner_curves(const geometry::InnerCurves& curves, const geometry::Boundary& boundary,
                                         const sizing::SizeField& size, const geometry::Lattice& lattice,
                                         std::span<const geometry::Vec2> corners);
+
+/// @brief Does the same, and gives parts of regions that are smaller or narrower than the triangles to the regions next
+/// to them, see absorb_parts(): small faces first, narrow parts once the arcs are simple. The arcs that result are
+/// simplified again, until no part is narrow, or for a few rounds.
+/// @param pairs pairs of regions that may be neighbours, the lower one first, in ascending order
+/// @pre the container is not periodic, unless `pairs` is empty
+Partition simplify_partition(const geometry::InnerCurves& curves, const geometry::Boundary& boundary,
+                             const ArcRequest& request, std::span<const std::array<int, 2>> pairs);
 
 } // namespace trime::generalise

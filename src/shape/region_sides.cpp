@@ -13,6 +13,42 @@ namespace {
 // [area of the smaller region] Overlaps that are smaller come from the digits of maps, and nobody is warned of them.
 constexpr double overlap_share = 1e-6;
 
+// [smallest perimeter of a face] Regions with a shorter perimeter may go to a neighbour where the triangles become
+// larger than expected. Then their neighbours touch.
+constexpr double small_perimeter = 4;
+
+using Pairs = std::set<std::array<int, 2>>;
+
+/// Adds the pairs of the neighbours of each small region.
+void add_neighbours(const std::vector<double>& perimeters, double least, Pairs& pairs) {
+  std::vector<std::vector<int>> neighbours(perimeters.size());
+  for (const auto& [a, b] : pairs) {
+    neighbours[static_cast<std::size_t>(a)].push_back(b);
+    neighbours[static_cast<std::size_t>(b)].push_back(a);
+  }
+  for (std::size_t k = 0; k < perimeters.size(); ++k)
+    if (perimeters[k] < least)
+      for (const int a : neighbours[k])
+        for (const int b : neighbours[k])
+          if (a < b)
+            pairs.insert({a, b});
+}
+
+/// Returns the length of the border of each region.
+std::vector<double> perimeters_of(const std::vector<geometry::InnerArc>& arcs, const geometry::Boundary& boundary,
+                                  std::size_t regions) {
+  std::vector<double> perimeters(regions, 0);
+  for (const geometry::InnerArc& arc : arcs)
+    if (arc.left != arc.right)
+      for (const geometry::Piece& piece : arc.pieces)
+        for (const int region : {arc.left, arc.right})
+          perimeters[static_cast<std::size_t>(region)] += piece.length();
+  for (const geometry::Loop& loop : boundary.loops)
+    for (const geometry::Piece& piece : loop.pieces)
+      perimeters[static_cast<std::size_t>(piece.region)] += piece.length();
+  return perimeters;
+}
+
 } // namespace
 
 RegionSides::RegionSides(const Division& division, std::span<const std::string> part_names)
@@ -112,15 +148,18 @@ geometry::Regions RegionSides::regions(const std::vector<geometry::InnerArc>& ar
     regions.outside[k] = outside_[k] > least ? outside_[k] : 0;
   for (const NamedRegion& region : division_.regions)
     regions.names.push_back(region.name);
-  std::set<std::array<int, 2>> pairs;
+  Pairs pairs;
   for (const geometry::InnerArc& arc : arcs)
     if (arc.left != arc.right)
       pairs.insert({std::min(arc.left, arc.right), std::max(arc.left, arc.right)});
-  if (!boundary.periods.any()) // wedges of periodic containers are not cut
+  if (!boundary.periods.any()) { // parts of periodic containers are neither cut nor given away
     for (const geometry::NarrowWedge& wedge : geometry::narrow_wedges(arcs, boundary))
       if (wedge.left_region != wedge.right_region)
         pairs.insert(
             {std::min(wedge.left_region, wedge.right_region), std::max(wedge.left_region, wedge.right_region)});
+    add_neighbours(perimeters_of(arcs, boundary, regions.names.size()), small_perimeter * division_.least_perimeter,
+                   pairs);
+  }
   regions.pairs.assign(pairs.begin(), pairs.end());
   for (const auto& [pair, area] : overlaps_)
     if (0.5 * area.twice > std::max(least, overlap_share * std::min(given_[pair[0]], given_[pair[1]])))

@@ -13,6 +13,7 @@ import random
 import subprocess
 import unittest
 
+import h5py
 import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import spsolve
@@ -55,6 +56,15 @@ def grains(count, seed):
     cells = Voronoi(np.vstack(mirrored))
     return [feature(k + 1, np.round(np.clip(cells.vertices[cells.regions[cells.point_region[k]]], 0, 1), 12).tolist())
             for k in range(count)]
+
+
+def labels(count, kinds, noise, seed):
+    """Labels of count x count cells: patches of about 8 cells with rough borders, and single cells by noise."""
+    draw = np.random.default_rng(seed)
+    f = np.fft.fftfreq(count)
+    low = np.exp(-100 * (f[:, None]**2 + f[None, :]**2))
+    fields = [np.real(np.fft.ifft2(np.fft.fft2(draw.normal(size=(count, count))) * low)) for _ in range(kinds)]
+    return np.argmax([x / x.std() + noise * draw.normal(size=x.shape) for x in fields], axis=0) + 1
 
 
 def exact(points):
@@ -148,6 +158,71 @@ class RegionMaps(WorkspaceCase):
             self.assertIn(done.returncode, (0, 2, 3), done.stdout + done.stderr)
             if done.returncode:
                 self.assertIn("are too few", done.stderr)
+
+    def test_labels_that_are_smaller_than_the_triangles(self):
+        checkers = np.indices((64, 64)).sum(axis=0) % 2 + 1
+        for cells, points in ((checkers, 500), (labels(64, 4, 0.0, 1), 500), (labels(64, 4, 1.0, 2), 1500),
+                              (labels(64, 3, 0.3, 3), 3000)):
+            self.write_labels(cells)
+            mesh = self.same_on_three_ranks("[shape]\ngeometry = domain\n[region.cover]\nfile = cells.asc\n", points)
+            self.assertAlmostEqual(math.fsum(mesh.areas), 1, delta=1e-12)
+            self.assertLess(len(mesh.points), 1.01 * points)
+
+    def write_labels(self, cells):
+        rows, columns = cells.shape
+        (self.directory / "cells.asc").write_text(
+            f"ncols {columns}\nnrows {rows}\nxllcorner 0\nyllcorner 0\ncellsize {1 / columns!r}\n"
+            + "".join(" ".join(map(str, row)) + "\n" for row in cells))
+
+    def balance(self, mesh):
+        """The area of each region in the mesh, with what it lost and without what it gained, minus its given area."""
+        with h5py.File(self.directory / "mesh.h5") as file:
+            rows = file["/trime_mpi/region_losses"]
+            losses = list(zip(rows["loser"][:], rows["winner"][:], rows["area"][:]))
+        kept = dict(zip(mesh.table["region_id"], mesh.table["area"] - mesh.table["given_area"]))
+        for loser, winner, area in losses:
+            kept[loser] += area
+            kept[winner] -= area
+        return list(kept.values())
+
+    def test_cells_that_are_smaller_than_the_triangles(self):
+        text = "[shape]\ngeometry = domain\n[region.cover]\nfile = cells.asc\n"
+        for seed, noise in ((11, 0.5), (12, 0.0)):
+            self.write_labels(labels(48, 3, noise, seed))
+            mesh = self.same_on_three_ranks(text, 400)
+            self.assertLess(np.abs(self.balance(mesh)).max(), 1e-9)
+            self.assertLess(mesh.alpha(), 3)
+
+        # Two grains that are 1.6 h wide stay, the passage of one cell between them and single cells go.
+        cells = np.full((64, 64), 1)
+        cells[20:30, 10:20] = cells[20:30, 40:50] = cells[25, 20:40] = 2
+        cells[45:60:5, 5:60:5] = 3
+        self.write_labels(cells)
+        mesh = self.same_on_three_ranks(text, 120)
+        self.assertIn("the region 'cover.3', of area 0.00805664, has no triangles", self.report)
+        self.assertLess(np.abs(self.balance(mesh)).max(), 1e-9)
+        centers = mesh.points[mesh.triangles].mean(axis=1)[:, 0]
+        grain = mesh.region == mesh.numbers["cover.2"]
+        self.assertFalse((grain & (0.35 < centers) & (centers < 0.6)).any())
+        for is_here in (centers < 0.35, centers > 0.6):
+            self.assertAlmostEqual(mesh.areas[grain & is_here].sum(), (10 / 64)**2, delta=0.1 * (10 / 64)**2)
+
+    def test_two_versions_of_one_coast(self):
+        noise = random.Random(7).uniform
+        turns = [2 * math.pi * k / 2000 for k in range(2000)]
+
+        def version():
+            radii = [0.3 + 0.05 * math.sin(5 * t) + 0.02 * math.sin(37 * t) + noise(-2e-4, 2e-4) for t in turns]
+            return [[0.5 + r * math.cos(t), 0.5 + r * math.sin(t)] for r, t in zip(radii, turns)]
+
+        land, hole = feature("land", version()), version()[::-1]
+        sea = feature("sea", [(0.05, 0.05), (0.95, 0.05), (0.95, 0.95), (0.05, 0.95)])
+        sea["geometry"]["coordinates"].append([*hole, hole[0]])
+        self.write_map([land, sea])
+        mesh = self.same_on_three_ranks(
+            "[shape]\ngeometry = domain\n[region.g]\nfile = map.geojson\nattribute = unit\n", 3000)
+        self.assertEqual(set(mesh.names[k] for k in np.unique(mesh.region)), {"domain", "g.land", "g.sea"})
+        self.assertLess(mesh.alpha(), 1.5)
 
     def test_a_size_for_each_region(self):
         sizing = "[sizing]\nscale = absolute\nmax_size = 0.03\ngradation = 0.2\n"
