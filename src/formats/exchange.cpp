@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <string_view>
 
 namespace trime::formats {
 namespace {
@@ -23,6 +24,7 @@ constexpr FormatInfo table[] = {
     {Format::freefem, "freefem", ".freefem", false, false, plan_freefem},
     {Format::triangle, "triangle", ".node", false, false, plan_triangle},
     {Format::vtu, "vtu", ".vtu", false, true, plan_vtu},
+    {Format::voronoi, "voronoi", "_cells.vtu", true, true, plan_voronoi},
     {Format::sms, "2dm", ".2dm", false, false, plan_sms},
     {Format::adcirc, "fort14", ".14", false, false, plan_adcirc},
     {Format::geojson, "geojson", ".geojson", false, true, plan_geojson},
@@ -70,10 +72,12 @@ std::optional<Format> format_of_word(const std::string& word) {
 }
 
 std::optional<Format> format_of_path(const std::string& path) {
+  const FormatInfo* found = nullptr; // with the longest ending
   for (const FormatInfo& row : table)
-    if (row.plan && ends_with(path, row.ending))
-      return row.format;
-  return {};
+    if (row.plan && ends_with(path, row.ending) &&
+        (!found || std::string_view(row.ending).size() > std::string_view(found->ending).size()))
+      found = &row;
+  return found ? std::optional(found->format) : std::nullopt;
 }
 
 std::string words_of(bool FormatInfo::*property, const char* last) {
@@ -93,21 +97,24 @@ std::vector<std::string> paths_of(Format format, const std::string& path) {
   return {stem + ".node", stem + ".ele", stem + ".edge"};
 }
 
-std::vector<std::string> write(Format format, const std::string& path, const mesh::DistributedMesh& mesh,
-                               const Names& with, io::RunFiles* files, const comm::Communicator& comm) {
+Exported write(Format format, const std::string& path, const mesh::DistributedMesh& mesh, const Names& with,
+               io::RunFiles* files, const comm::Communicator& comm) {
   const FormatInfo& info = info_of(format);
   check_fits(info, mesh, with); // all ranks find the same
   const ExchangeMesh exchange(mesh, with, comm);
   io::FileSet written;
+  Exported made{paths_of(format, path)};
   for (const FilePlan& file : info.plan(exchange, path)) {
     comm::run_agreed(comm, [&] {
       if (comm.is_root())
         written.add(file.path);
     });
     io::write_text_rows(file.path, file.rows, files, comm);
+    made.checks.insert(made.checks.end(), file.checks.begin(), file.checks.end());
+    made.summary += file.summary;
   }
   written.complete();
-  return paths_of(format, path);
+  return made;
 }
 
 } // namespace trime::formats
