@@ -228,9 +228,14 @@ std::string quality_text(const Metadata& metadata) {
 ExitCode convert(const CommandLine& line, io::RunFiles* files, const comm::Communicator& comm, Log& log) {
   const std::string &from = line.files[0], &to = line.files[1];
   const formats::Format format = format_of_output(to);
-  formats::refuse_to_replace(formats::paths_of(format, to), line.overwrite, "add --overwrite to replace it", comm);
+  const auto refuse = [&](const formats::Names& with) {
+    formats::refuse_to_replace(formats::paths_of(format, to, with), line.overwrite, "add --overwrite to replace it",
+                               comm);
+  };
+  refuse({}); // before the file is read
   const Metadata metadata = io::read_metadata(from, {"tags", "curves", "interfaces"}, comm);
   formats::Names names = names_of(metadata);
+  refuse(names);
   names.in_degrees = line.in_degrees;
   const mesh::DistributedMesh mesh = io::read_mesh(from, metadata, comm);
   if (is_marked(metadata))

@@ -3,6 +3,7 @@
 
 #include "comm/agree.hpp"
 #include "formats/exchange_mesh.hpp"
+#include "formats/solver_names.hpp"
 #include "io/temporary_file.hpp"
 
 #include <fmt/format.h>
@@ -25,6 +26,8 @@ constexpr FormatInfo table[] = {
     {Format::triangle, "triangle", ".node", false, false, plan_triangle},
     {Format::vtu, "vtu", ".vtu", false, true, plan_vtu},
     {Format::voronoi, "voronoi", "_cells.vtu", true, true, plan_voronoi},
+    {Format::disv, "disv", ".disv", false, true, plan_disv},
+    {Format::uge, "uge", ".uge", true, true, plan_uge},
     {Format::sms, "2dm", ".2dm", false, false, plan_sms},
     {Format::adcirc, "fort14", ".14", false, false, plan_adcirc},
     {Format::geojson, "geojson", ".geojson", false, true, plan_geojson},
@@ -90,11 +93,18 @@ std::string words_of(bool FormatInfo::*property, const char* last) {
   return fmt::format("{} {} {}", fmt::join(words, ", "), last, end);
 }
 
-std::vector<std::string> paths_of(Format format, const std::string& path) {
-  if (format != Format::triangle)
-    return {path};
-  const std::string stem = ends_with(path, ".node") ? path.substr(0, path.size() - 5) : path;
-  return {stem + ".node", stem + ".ele", stem + ".edge"};
+std::vector<std::string> paths_of(Format format, const std::string& path, const Names& names) {
+  const std::string ending = info_of(format).ending;
+  const std::string stem = ends_with(path, ending) ? path.substr(0, path.size() - ending.size()) : path;
+  if (format == Format::triangle)
+    return {stem + ".node", stem + ".ele", stem + ".edge"};
+  std::vector<std::string> paths{path};
+  if (format == Format::disv)
+    paths.push_back(stem + ".zones");
+  if (format == Format::uge)
+    for (const std::string& part : solver_names(names.parts))
+      paths.push_back(stem + "_" + part + ".ex");
+  return paths;
 }
 
 Exported write(Format format, const std::string& path, const mesh::DistributedMesh& mesh, const Names& with,
@@ -103,7 +113,7 @@ Exported write(Format format, const std::string& path, const mesh::DistributedMe
   check_fits(info, mesh, with); // all ranks find the same
   const ExchangeMesh exchange(mesh, with, comm);
   io::FileSet written;
-  Exported made{paths_of(format, path)};
+  Exported made{paths_of(format, path, with)};
   for (const FilePlan& file : info.plan(exchange, path)) {
     comm::run_agreed(comm, [&] {
       if (comm.is_root())

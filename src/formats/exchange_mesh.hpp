@@ -111,6 +111,8 @@ std::vector<FilePlan> plan_medit(const ExchangeMesh& mesh, const std::string& pa
 std::vector<FilePlan> plan_freefem(const ExchangeMesh& mesh, const std::string& path);
 std::vector<FilePlan> plan_triangle(const ExchangeMesh& mesh, const std::string& path);
 std::vector<FilePlan> plan_voronoi(const ExchangeMesh& mesh, const std::string& path);
+std::vector<FilePlan> plan_disv(const ExchangeMesh& mesh, const std::string& path);
+std::vector<FilePlan> plan_uge(const ExchangeMesh& mesh, const std::string& path);
 std::vector<FilePlan> plan_vtu(const ExchangeMesh& mesh, const std::string& path);
 std::vector<FilePlan> plan_sms(const ExchangeMesh& mesh, const std::string& path);
 std::vector<FilePlan> plan_adcirc(const ExchangeMesh& mesh, const std::string& path);

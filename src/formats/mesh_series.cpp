@@ -82,7 +82,7 @@ std::vector<std::string> SeriesOptions::export_paths() const {
   std::vector<std::string> paths;
   for (const Format format : formats)
     if (const FormatInfo& info = info_of(format); info.plan)
-      for (const std::string& path : paths_of(format, file.path(info.ending)))
+      for (const std::string& path : paths_of(format, file.path(info.ending), names))
         paths.push_back(path);
   return paths;
 }

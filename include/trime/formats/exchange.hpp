@@ -21,8 +21,8 @@ class ExchangeMesh;
 struct FilePlan;
 
 /// The output formats. vtkhdf and xdmf describe the arrays of NAME.h5 for other readers, text has the files of TriMe++,
-/// gmsh is MSH 4.1, gmsh2 MSH 2.2, sms is .2dm. voronoi
-/// has the Voronoi cells of the points instead of the triangles.
+/// gmsh is MSH 4.1, gmsh2 MSH 2.2, sms is .2dm. voronoi,
+/// disv (MODFLOW 6) and uge (PFLOTRAN) have the Voronoi cells of the points instead of the triangles.
 enum class Format {
   vtkhdf,
   xdmf,
@@ -34,6 +34,8 @@ enum class Format {
   triangle,
   vtu,
   voronoi,
+  disv,
+  uge,
   sms,
   adcirc,
   geojson,
@@ -82,8 +84,9 @@ struct Names {
   std::vector<geometry::CurveKind> curve_kinds{}; ///< kinds of the curves, see geometry::InnerCurves::kinds
 };
 
-/// Returns the paths of all files of a format if the first file is `path`. For example, Triangle has three files.
-std::vector<std::string> paths_of(Format format, const std::string& path);
+/// Returns the paths of all files of a format if the first file is `path`. For example, Triangle has three files, and
+/// PFLOTRAN one for each part of the boundary.
+std::vector<std::string> paths_of(Format format, const std::string& path, const Names& names);
 
 /// The files of a format.
 struct Exported {
