@@ -48,6 +48,15 @@ class CellFile:
             areas[k] = 0.5 * (x @ np.roll(y, -1) - y @ np.roll(x, -1))
         return areas
 
+    def is_convex(self):
+        """Whether no corner of a polygon is reflex, but for rounding."""
+        convex = np.empty(len(self.polygons), bool)
+        for k, polygon in enumerate(self.polygons):
+            to = np.roll(self.vertices[polygon], -1, axis=0) - self.vertices[polygon]
+            turns = to[:, 0] * np.roll(to[:, 1], -1) - to[:, 1] * np.roll(to[:, 0], -1)
+            convex[k] = turns.min() > -1e-9 * self.area[k]
+        return convex
+
     def sides(self):
         """Polygons by the ends of their sides, the lower number first."""
         found = defaultdict(list)
