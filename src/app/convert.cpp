@@ -225,19 +225,37 @@ std::string quality_text(const Metadata& metadata) {
 
 } // namespace
 
-void convert(const CommandLine& line, io::RunFiles* files, const comm::Communicator& comm, Log& log) {
+ExitCode convert(const CommandLine& line, io::RunFiles* files, const comm::Communicator& comm, Log& log) {
   const std::string &from = line.files[0], &to = line.files[1];
   const formats::Format format = format_of_output(to);
-  formats::refuse_to_replace(formats::paths_of(format, to), line.overwrite, "add --overwrite to replace it", comm);
+  const auto refuse = [&](const formats::Names& with) {
+    formats::refuse_to_replace(formats::paths_of(format, to, with), line.overwrite, "add --overwrite to replace it",
+                               comm);
+  };
+  refuse({}); // before the file is read
   const Metadata metadata = io::read_metadata(from, {"tags", "curves", "interfaces"}, comm);
   formats::Names names = names_of(metadata);
+  refuse(names);
   names.in_degrees = line.in_degrees;
   const mesh::DistributedMesh mesh = io::read_mesh(from, metadata, comm);
   if (is_marked(metadata))
     log.warning("{} holds a mesh that is NOT complete, see 'trime_mpi info {}'", from, from);
-  for (const std::string& path : formats::write(format, to, mesh, names, files, comm))
+  const formats::Exported made = formats::write(format, to, mesh, names, files, comm);
+  for (const std::string& path : made.paths)
     log.info("{}: {} points, {} triangles, {} boundary edges", path, mesh.point_slab.total, mesh.triangle_slab.total,
              mesh.facet_slab.total);
+  print_cells(made, log);
+  return mesh::all_passed(made.checks) ? ExitCode::done : ExitCode::incomplete;
+}
+
+void print_cells(const formats::Exported& made, Log& log) {
+  if (made.checks.empty())
+    return;
+  log.summary("{}", made.summary);
+  for (const mesh::Check& check : made.checks)
+    if (!check.passed)
+      log.warning("the Voronoi cells are NOT right: check {} FAILED: expected {:.15g}, found {:.15g} ({})", check.name,
+                  check.expected, check.found, check.meaning);
 }
 
 std::string info(const std::string& path, bool prints_all, const comm::Communicator& comm) {

@@ -4,7 +4,9 @@
 
 #include "app/command_line.hpp"
 #include "trime/comm/communicator.hpp"
+#include "trime/core/error.hpp"
 #include "trime/core/log.hpp"
+#include "trime/formats/exchange.hpp"
 #include "trime/io/mesh_file.hpp"
 
 #include <string>
@@ -12,9 +14,13 @@
 namespace trime::app {
 
 /// Does the work of `trime_mpi convert IN OUT`: writes the mesh in the format that belongs to the ending of OUT.
+/// @return ExitCode::incomplete if the file has Voronoi cells and a check of them failed
 /// @throws ConfigError, FileError on all ranks
 /// @note Collective.
-void convert(const CommandLine& line, io::RunFiles* files, const comm::Communicator& comm, Log& log);
+ExitCode convert(const CommandLine& line, io::RunFiles* files, const comm::Communicator& comm, Log& log);
+
+/// Prints a line about the Voronoi cells of a file, and a warning for each check that failed.
+void print_cells(const formats::Exported& made, Log& log);
 
 /// Returns the text that `trime_mpi info FILE` prints. Lists with many names are cut unless `prints_all`.
 /// @throws FileError on all ranks

@@ -385,9 +385,10 @@ ExitCode MeshRun::run() {
   keeper_.go_to_the_end();
   const io::WrittenFiles files = job_.options.write ? publish(provenance, result, sizes) : io::WrittenFiles{};
   const Measurements measured = gather_measurements(job_.timers, job_.comm);
+  const ExitCode code = mesh::all_passed(series_.cells().checks) ? exit_code(result) : ExitCode::incomplete;
   if (!job_.line.report.empty())
     io::write_report_file(job_.line.report, describe(provenance, result, sizes, measured),
-                          {static_cast<int>(exit_code(result)), files.paths}, job_.comm);
+                          {static_cast<int>(code), files.paths}, job_.comm);
   keeper_.remove_all();
   const std::vector<std::int64_t> edges =
       edges_of_parts(result.mesh, boundary().part_names.size() + input_.domain().curves().names.size(), job_.comm);
@@ -401,9 +402,10 @@ ExitCode MeshRun::run() {
                        formats::open_boundary_text(series_options(job_, input_).names, edges));
   if (courant_)
     job_.log.summary("{}", text_of(*courant_));
+  print_cells(series_.cells(), job_.log);
   if (!is_complete(result))
     job_.log.warning("{}", incompleteness(result, job_.options.write));
-  return exit_code(result);
+  return code;
 }
 
 } // namespace
@@ -423,8 +425,7 @@ ExitCode run_program(int argc, const char* const* argv, const comm::Communicator
   }
   if (line.action == Action::convert) {
     Log log(LogLevel::info, comm.is_root());
-    convert(line, process.files, comm, log);
-    return ExitCode::done;
+    return convert(line, process.files, comm, log);
   }
   if (line.action == Action::refine) {
     Log log(LogLevel::info, comm.is_root());

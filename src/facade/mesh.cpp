@@ -329,9 +329,10 @@ void Mesh::write(const std::string& path, const WriteOptions& options) const {
     throw ConfigError(fmt::format("{}: expected a path that ends in .h5, or in the ending of another format, such as "
                                   ".msh, .vtu or .geojson",
                                   path));
-  formats::refuse_to_replace(formats::paths_of(*format, path), options.overwrite, how_to_replace, comm);
+  const formats::Names names = names_of(origin);
+  formats::refuse_to_replace(formats::paths_of(*format, path, names), options.overwrite, how_to_replace, comm);
   make_directory_of(file, comm);
-  formats::write(*format, path, result().mesh, names_of(origin), nullptr, comm);
+  formats::write(*format, path, result().mesh, names, nullptr, comm);
 }
 
 Mesh make_mesh(MPI_Comm handle, const Shape& shape, const Size& size, const MeshOptions& options) {

@@ -3,12 +3,14 @@
 
 #include "comm/agree.hpp"
 #include "formats/exchange_mesh.hpp"
+#include "formats/solver_names.hpp"
 #include "io/temporary_file.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <limits>
+#include <string_view>
 
 namespace trime::formats {
 namespace {
@@ -23,6 +25,9 @@ constexpr FormatInfo table[] = {
     {Format::freefem, "freefem", ".freefem", false, false, plan_freefem},
     {Format::triangle, "triangle", ".node", false, false, plan_triangle},
     {Format::vtu, "vtu", ".vtu", false, true, plan_vtu},
+    {Format::voronoi, "voronoi", "_cells.vtu", true, true, plan_voronoi},
+    {Format::disv, "disv", ".disv", false, true, plan_disv},
+    {Format::uge, "uge", ".uge", true, true, plan_uge},
     {Format::sms, "2dm", ".2dm", false, false, plan_sms},
     {Format::adcirc, "fort14", ".14", false, false, plan_adcirc},
     {Format::schism, "gr3", ".gr3", false, false, plan_schism},
@@ -73,10 +78,12 @@ std::optional<Format> format_of_word(const std::string& word) {
 }
 
 std::optional<Format> format_of_path(const std::string& path) {
+  const FormatInfo* found = nullptr; // with the longest ending
   for (const FormatInfo& row : table)
-    if (row.plan && ends_with(path, row.ending))
-      return row.format;
-  return {};
+    if (row.plan && ends_with(path, row.ending) &&
+        (!found || std::string_view(row.ending).size() > std::string_view(found->ending).size()))
+      found = &row;
+  return found ? std::optional(found->format) : std::nullopt;
 }
 
 std::string words_of(bool FormatInfo::*property, const char* last) {
@@ -89,30 +96,40 @@ std::string words_of(bool FormatInfo::*property, const char* last) {
   return fmt::format("{} {} {}", fmt::join(words, ", "), last, end);
 }
 
-std::vector<std::string> paths_of(Format format, const std::string& path) {
+std::vector<std::string> paths_of(Format format, const std::string& path, const Names& names) {
+  const std::string ending = info_of(format).ending;
+  const std::string stem = ends_with(path, ending) ? path.substr(0, path.size() - ending.size()) : path;
+  if (format == Format::triangle)
+    return {stem + ".node", stem + ".ele", stem + ".edge"};
+  std::vector<std::string> paths{path};
   if (format == Format::telemac)
-    return {path, (ends_with(path, ".slf") ? path.substr(0, path.size() - 4) : path) + ".cli"};
-  if (format != Format::triangle)
-    return {path};
-  const std::string stem = ends_with(path, ".node") ? path.substr(0, path.size() - 5) : path;
-  return {stem + ".node", stem + ".ele", stem + ".edge"};
+    paths.push_back(stem + ".cli");
+  if (format == Format::disv)
+    paths.push_back(stem + ".zones");
+  if (format == Format::uge)
+    for (const std::string& part : solver_names(names.parts))
+      paths.push_back(stem + "_" + part + ".ex");
+  return paths;
 }
 
-std::vector<std::string> write(Format format, const std::string& path, const mesh::DistributedMesh& mesh,
-                               const Names& with, io::RunFiles* files, const comm::Communicator& comm) {
+Exported write(Format format, const std::string& path, const mesh::DistributedMesh& mesh, const Names& with,
+               io::RunFiles* files, const comm::Communicator& comm) {
   const FormatInfo& info = info_of(format);
   check_fits(info, mesh, with); // all ranks find the same
   const ExchangeMesh exchange(mesh, with, comm);
   io::FileSet written;
+  Exported made{paths_of(format, path, with)};
   for (const FilePlan& file : info.plan(exchange, path)) {
     comm::run_agreed(comm, [&] {
       if (comm.is_root())
         written.add(file.path);
     });
     io::write_text_rows(file.path, file.rows, files, comm);
+    made.checks.insert(made.checks.end(), file.checks.begin(), file.checks.end());
+    made.summary += file.summary;
   }
   written.complete();
-  return paths_of(format, path);
+  return made;
 }
 
 } // namespace trime::formats

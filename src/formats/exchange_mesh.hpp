@@ -18,6 +18,8 @@ namespace trime::formats {
 struct FilePlan {
   std::string path;
   std::vector<io::TextRows> rows;
+  mesh::Checks checks{}; ///< of what the file holds beyond the mesh
+  std::string summary{}; ///< a line about that
 };
 
 /// Appends the bytes of a value as they are in memory.
@@ -108,6 +110,9 @@ std::vector<FilePlan> plan_gmsh2(const ExchangeMesh& mesh, const std::string& pa
 std::vector<FilePlan> plan_medit(const ExchangeMesh& mesh, const std::string& path);
 std::vector<FilePlan> plan_freefem(const ExchangeMesh& mesh, const std::string& path);
 std::vector<FilePlan> plan_triangle(const ExchangeMesh& mesh, const std::string& path);
+std::vector<FilePlan> plan_voronoi(const ExchangeMesh& mesh, const std::string& path);
+std::vector<FilePlan> plan_disv(const ExchangeMesh& mesh, const std::string& path);
+std::vector<FilePlan> plan_uge(const ExchangeMesh& mesh, const std::string& path);
 std::vector<FilePlan> plan_vtu(const ExchangeMesh& mesh, const std::string& path);
 std::vector<FilePlan> plan_sms(const ExchangeMesh& mesh, const std::string& path);
 std::vector<FilePlan> plan_adcirc(const ExchangeMesh& mesh, const std::string& path);

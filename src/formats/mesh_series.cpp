@@ -82,7 +82,7 @@ std::vector<std::string> SeriesOptions::export_paths() const {
   std::vector<std::string> paths;
   for (const Format format : formats)
     if (const FormatInfo& info = info_of(format); info.plan)
-      for (const std::string& path : paths_of(format, file.path(info.ending)))
+      for (const std::string& path : paths_of(format, file.path(info.ending), names))
         paths.push_back(path);
   return paths;
 }
@@ -156,10 +156,13 @@ io::WrittenFiles MeshSeries::write_final(const SeriesMesh& mesh) {
     written.paths.push_back(fmt::format("{} ({} of them)", options_.file.path("_step_*.h5"), steps));
   written.paths.insert(written.paths.end(), collections_.begin(), collections_.end());
   for (const Format format : options_.formats)
-    if (const FormatInfo& info = info_of(format); info.plan)
-      for (const std::string& path : formats::write(format, options_.file.path(info.ending), mesh.mesh, options_.names,
-                                                    options_.file.run_files, comm_))
-        written.paths.push_back(path);
+    if (const FormatInfo& info = info_of(format); info.plan) {
+      const Exported made = formats::write(format, options_.file.path(info.ending), mesh.mesh, options_.names,
+                                           options_.file.run_files, comm_);
+      written.paths.insert(written.paths.end(), made.paths.begin(), made.paths.end());
+      if (!made.checks.empty())
+        cells_ = {{}, made.checks, made.summary};
+    }
   return written;
 }
 

@@ -72,6 +72,9 @@ public:
   /// Writes the final mesh of the run as NAME.h5 with its views, and in the formats of other programs.
   /// @return the files of the run, with those of the final mesh first; on rank 0 only
   io::WrittenFiles write_final(const SeriesMesh& mesh);
+  /// Returns the checks of the Voronoi cells that write_final has written, and a line about them; both are empty if no
+  /// format has cells. The paths are left out.
+  const Exported& cells() const { return cells_; }
 
 private:
   /// A mesh of the series whose files are in the directory.
@@ -87,6 +90,7 @@ private:
   SeriesOptions options_;
   const comm::Communicator& comm_;
   std::vector<Member> members_;
+  Exported cells_;
   bool is_cleared_ = false;              ///< whether files of an older run have been removed
   std::vector<std::string> collections_; ///< files that list all meshes of the series
 };

@@ -77,7 +77,7 @@ private:
 } // namespace
 
 std::vector<FilePlan> plan_triangle(const ExchangeMesh& mesh, const std::string& path) {
-  const std::vector<std::string> paths = paths_of(Format::triangle, path);
+  const std::vector<std::string> paths = paths_of(Format::triangle, path, mesh.names());
   const auto inner = std::make_shared<const InnerEdges>(mesh); // rows outlive this function
   return {
       {paths[0],

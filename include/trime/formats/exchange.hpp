@@ -8,6 +8,7 @@
 #include "trime/geometry/vec2.hpp"
 #include "trime/io/mesh_file.hpp"
 #include "trime/mesh/distributed_mesh.hpp"
+#include "trime/mesh/quality.hpp"
 
 #include <optional>
 #include <span>
@@ -21,6 +22,7 @@ struct FilePlan;
 
 /// The output formats. vtkhdf and xdmf describe the arrays of NAME.h5 for other readers, text has the files of TriMe++,
 /// gmsh is MSH 4.1, gmsh2 MSH 2.2, sms is .2dm, schism is hgrid.gr3, telemac is Selafin with its boundary conditions.
+/// voronoi, disv (MODFLOW 6) and uge (PFLOTRAN) have the Voronoi cells of the points instead of the triangles.
 enum class Format {
   vtkhdf,
   xdmf,
@@ -31,6 +33,9 @@ enum class Format {
   freefem,
   triangle,
   vtu,
+  voronoi,
+  disv,
+  uge,
   sms,
   adcirc,
   schism,
@@ -82,8 +87,16 @@ struct Names {
   std::vector<geometry::CurveKind> curve_kinds{}; ///< kinds of the curves, see geometry::InnerCurves::kinds
 };
 
-/// Returns the paths of all files of a format if the first file is `path`. For example, Triangle has three files.
-std::vector<std::string> paths_of(Format format, const std::string& path);
+/// Returns the paths of all files of a format if the first file is `path`. For example, Triangle has three files, and
+/// PFLOTRAN one for each part of the boundary.
+std::vector<std::string> paths_of(Format format, const std::string& path, const Names& names);
+
+/// The files of a format.
+struct Exported {
+  std::vector<std::string> paths;
+  mesh::Checks checks{}; ///< of what the files hold beyond the mesh, such as Voronoi cells
+  std::string summary{}; ///< a line about that
+};
 
 /// @brief Writes the mesh in a format of another program. Each file appears complete or not at all; files of the same
 /// name are replaced. The ranks make the text in slices, so no rank holds the whole of it; for sms and adcirc, however,
@@ -91,10 +104,9 @@ std::vector<std::string> paths_of(Format format, const std::string& path);
 /// @param files list of the temporary files, which a signal handler removes; may be null
 /// @throws ConfigError for a mesh that the format cannot hold (periodic container, too many points); FileError if a
 /// file cannot be written; both on all ranks together
-/// @return the paths of the files
 /// @note Collective.
-std::vector<std::string> write(Format format, const std::string& path, const mesh::DistributedMesh& mesh,
-                               const Names& names, io::RunFiles* files, const comm::Communicator& comm);
+Exported write(Format format, const std::string& path, const mesh::DistributedMesh& mesh, const Names& names,
+               io::RunFiles* files, const comm::Communicator& comm);
 
 /// @brief Creates the output directory if it is missing, and checks that the mesh file and its views can be written.
 /// Call this before long computations whose result would otherwise be lost.

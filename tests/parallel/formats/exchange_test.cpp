@@ -62,11 +62,11 @@ TEST(Exchange, FilesDoNotDependOnTheDistribution) {
     for (const std::uint64_t seed : {1, 2, 3}) {
       write(info.format, all, test::slabs_of(whole, comm, seed), names, nullptr, comm);
       comm.barrier();
-      for (std::size_t k = 0; comm.is_root() && k < paths_of(info.format, one).size(); ++k) {
-        const std::string expected = content(paths_of(info.format, one)[k]);
+      for (std::size_t k = 0; comm.is_root() && k < paths_of(info.format, one, names).size(); ++k) {
+        const std::string expected = content(paths_of(info.format, one, names)[k]);
         EXPECT_GT(expected.size(), 100u);
         if (info.format != Format::adcirc) { // the title is the path
-          EXPECT_EQ(content(paths_of(info.format, all)[k]), expected);
+          EXPECT_EQ(content(paths_of(info.format, all, names)[k]), expected);
         }
       }
       comm.barrier();
