@@ -48,6 +48,7 @@ ARROWS = {
     "handover": ["comm", "geometry", "mesh"],
     "facade": ["comm", "geometry", "contours", "tracing", "shape", "sizing", "boundary", "sweep", "mesh", "meshing",
                "io", "record", "formats", "handover"],
+    "python": ["comm", "geometry", "sizing", "facade"],
     "app": ["comm", "geometry", "contours", "tracing", "shape", "projection", "fields", "sizing", "polygon", "boundary",
             "sites", "fitting", "meshing", "refinement", "io", "checkpoint", "record", "formats"],
 }

@@ -3,9 +3,9 @@
 #include "bindings.hpp"
 #include "mesh_options.hpp"
 #include "python_size.hpp"
+#include "trime/comm/from_mpi.hpp"
 
 #include <fmt/format.h>
-#include <mpi.h>
 
 #include <pybind11/stl.h>
 
@@ -57,6 +57,19 @@ std::unique_ptr<Mesh> make(const py::object& comm, const Shape& shape, const py:
   raise(*error, given.function ? given.function->failure() : py::none());
 }
 
+/// Lets errors of the library become exceptions of the package.
+void translate_errors() {
+  py::register_exception_translator([](std::exception_ptr pointer) {
+    try {
+      if (pointer)
+        std::rethrow_exception(pointer);
+    } catch (const Error& error) {
+      const py::object exception = exception_of(error);
+      PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(exception.ptr())), exception.ptr());
+    }
+  });
+}
+
 py::list checks_of(const Mesh& mesh) {
   py::list checks;
   for (const mesh::Check& check : mesh.checks())
@@ -103,15 +116,7 @@ py::dict names_of(const Mesh& mesh) {
 } // namespace
 
 void bind_mesh(py::module_& module) {
-  py::register_exception_translator([](std::exception_ptr pointer) {
-    try {
-      if (pointer)
-        std::rethrow_exception(pointer);
-    } catch (const Error& error) {
-      const py::object exception = exception_of(error);
-      PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(exception.ptr())), exception.ptr());
-    }
-  });
+  translate_errors();
   py::class_<Region>(module, "Region")
       .def(py::init<std::string, Shape, std::optional<double>>(), py::arg("name"), py::arg("shape"),
            py::arg("size") = py::none());
