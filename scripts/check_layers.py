@@ -49,6 +49,7 @@ ARROWS = {
     "dual": ["comm", "geometry", "mesh"],
     "facade": ["comm", "geometry", "contours", "tracing", "shape", "sizing", "boundary", "sweep", "mesh", "meshing",
                "io", "record", "formats", "handover"],
+    "python": ["comm", "geometry", "sizing", "facade"],
     "app": ["comm", "geometry", "contours", "tracing", "shape", "projection", "fields", "sizing", "polygon", "boundary",
             "sites", "fitting", "meshing", "refinement", "io", "checkpoint", "record", "formats"],
 }

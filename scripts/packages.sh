@@ -11,6 +11,7 @@ trime_run_packages=(
   nlohmann-json3-dev                              # GeoJSON; the file by which ParaView plays steps
   libshp-dev libproj-dev                          # shapefiles; longitude and latitude
   python3 python3-h5py python3-numpy python3-matplotlib # scripts/python, scripts/plot_mesh.py, scripts/scaling.py
+  python3-dev pybind11-dev python3-mpi4py         # the Python module that meshes in place: trime_mpi.parallel
 )
 # To run the tests, beside the above.
 trime_test_packages=(
@@ -20,7 +21,6 @@ trime_test_packages=(
   hdf5-tools python3-vtk9 python3-meshio          # h5diff, and two foreign readers of the mesh file
   python3-gmsh python3-dolfinx freefem++ dolfin-bin # readers of the formats of other programs
   calculix-ccx                                    # a solver that reads .inp
-  python3-mpi4py                                  # Python programs that mpirun starts
   python3-qgis qgis-providers                     # reads .2dm; 99 packages, 424 MB: without it one test is skipped
   gdal-bin python3-gdal                           # reads and writes maps: ogr2ogr, ogrinfo; Python too
   gmt-gshhg-full                                  # coasts of full resolution; 42 MB: without it one test is skipped

@@ -6,6 +6,9 @@ install(PROGRAMS "${CMAKE_CURRENT_SOURCE_DIR}/scripts/plot_mesh.py" DESTINATION 
 # Where Debian's Python looks under /usr; elsewhere: PYTHONPATH. plot_mesh.py finds it by itself.
 install(DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}/scripts/python/trime_mpi" DESTINATION lib/python3/dist-packages
         FILES_MATCHING PATTERN "*.py")
+if(TARGET trime_python)
+  install(TARGETS trime_python LIBRARY DESTINATION lib/python3/dist-packages/trime_mpi)
+endif()
 install(FILES "${CMAKE_CURRENT_SOURCE_DIR}/LICENSE" DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/trime-mpi RENAME copyright)
 
 find_program(TRIME_GZIP gzip)
@@ -46,7 +49,7 @@ else()
   set(trime_mpi_headers "libmpich-dev, libhdf5-mpich-dev")
 endif()
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "${trime_launcher}, python3") # mpirun, plot_mesh.py
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-h5py, python3-numpy, python3-matplotlib") # the Python package
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-h5py, python3-numpy, python3-matplotlib, python3-mpi4py") # the Python package
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS                  # to build with the library
     "g++, cmake, ${trime_mpi_headers}, libfmt-dev, libmuparser-dev, libproj-dev, libshp-dev")
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION               # behind the line of the project; CPack indents it

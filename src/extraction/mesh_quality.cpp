@@ -306,8 +306,23 @@ void QualityMeter::find_sizes(std::span<double> sizes) const {
   else if (size_->is_uniform())
     std::ranges::fill(sizes, sizing::checked_size(*size_, {}));
   else
+    find_varying_sizes(sizes);
+}
+
+void QualityMeter::find_varying_sizes(std::span<double> sizes) const {
+  const auto middle = [&](std::size_t k) { return periods_.wrap(0.5 * (from_[k] + to_[k])); };
+  if (!size_->prefers_blocks()) {
     for (std::size_t k = 0; k < sizes.size(); ++k)
-      sizes[k] = sizing::checked_size(*size_, periods_.wrap(0.5 * (from_[k] + to_[k])));
+      sizes[k] = sizing::checked_size(*size_, middle(k));
+    return;
+  }
+  std::array<Vec2, block> middles;
+  for (std::size_t k = 0; k < sizes.size(); ++k)
+    middles[k] = middle(k);
+  size_->sizes(std::span(middles).first(sizes.size()), sizes);
+  for (std::size_t k = 0; k < sizes.size(); ++k)
+    if (!sizing::is_valid_size(sizes[k]))
+      sizing::fail_for_size(middles[k], sizes[k]);
 }
 
 void QualityMeter::measure_edges() {

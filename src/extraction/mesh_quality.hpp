@@ -159,6 +159,7 @@ private:
   void note_extremes(std::span<const double> length, std::span<const double> size);
 
   void find_sizes(std::span<double> sizes) const;
+  void find_varying_sizes(std::span<double> sizes) const;
 
   const sizing::SizeField* size_ = nullptr;
   const geometry::Periods& periods_;

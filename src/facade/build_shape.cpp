@@ -2,6 +2,9 @@
 #include "facade/build_shape.hpp"
 
 #include "comm/agree.hpp"
+#include "core/distance_formula.hpp"
+#include "sizing/boundary_distance.hpp"
+#include "sizing/distance_size.hpp"
 #include "sizing/region_size.hpp"
 #include "trime/contours/contour.hpp"
 #include "trime/core/error.hpp"
@@ -208,6 +211,12 @@ Size uniform_size() {
   return {};
 }
 
+Size formula_size(const std::string& text) {
+  Size size;
+  size.formula_ = text;
+  return size;
+}
+
 Size automatic_size(double gradation) {
   Size size;
   size.gradation_ = gradation;
@@ -224,6 +233,10 @@ public:
                   std::vector<sizing::RegionBound> bounds)
       : field_(std::move(field)), bounded_(*field_, domain, std::move(bounds)) {}
   double size(geometry::Vec2 p) const override { return bounded_.size(p); }
+  void sizes(std::span<const geometry::Vec2> places, std::span<double> values) const override {
+    bounded_.sizes(places, values);
+  }
+  bool prefers_blocks() const override { return bounded_.prefers_blocks(); }
   bool jumps() const override { return true; }
   std::size_t memory_bytes() const override { return bounded_.memory_bytes(); }
 
@@ -242,6 +255,32 @@ private:
   const std::function<double(geometry::Vec2)>& function_;
 };
 
+/// A formula of a config, together with the size that it gives.
+class FormulaSize final : public sizing::SizeField {
+public:
+  FormulaSize(const std::string& text, const geometry::Domain& domain)
+      : formula_(text, "the formula of the size", distances_in(domain)), size_(formula_, box_of(domain)) {}
+  double size(geometry::Vec2 p) const override { return size_.size(p); }
+
+private:
+  /// Returns how a formula finds the distance to a named part. The result must not outlive the domain.
+  static DistanceLookup distances_in(const geometry::Domain& domain) {
+    return [&domain](const std::string& name) -> PlaceFunction {
+      const geometry::Periods& periods = domain.boundary().periods;
+      const auto curves = std::make_shared<const sizing::BoundaryDistance>(
+          name.empty() ? domain.boundary() : sizing::named_curves(domain), name,
+          sizing::Images{domain.frame().container(), periods.x, periods.y});
+      return [curves](double x, double y) { return curves->distance({x, y}); };
+    };
+  }
+  static Box box_of(const geometry::Domain& domain) {
+    return domain.frame().periods().any() ? domain.frame().container() : domain.boundary().bounding_box();
+  }
+
+  DistanceFormula formula_;
+  sizing::DistanceSize size_;
+};
+
 /// The size before it is bounded in regions. Collective.
 std::shared_ptr<const sizing::SizeField> common_size(const Size& size, const geometry::Domain& domain,
                                                      const meshing::MeshOptions& options,
@@ -250,6 +289,8 @@ std::shared_ptr<const sizing::SizeField> common_size(const Size& size, const geo
     return size.field();
   if (size.function())
     return std::make_shared<const CalledSize>(size.function());
+  if (!size.formula().empty())
+    return std::make_shared<const FormulaSize>(size.formula(), domain);
   if (!size.is_automatic())
     return std::make_shared<const sizing::UniformSize>(options.absolute_sizes ? options.max_size.value_or(1) : 1.0);
   const geometry::Boundary& boundary = domain.boundary();

@@ -114,7 +114,7 @@ void check_absolute(const Size& size, const MeshOptions& options) {
   if (size.is_automatic() && !options.min_size)
     throw ConfigError("MeshOptions::min_size: expected a length, because absolute_sizes is set and the size is "
                       "automatic: features of the boundary that are smaller are not resolved");
-  if (!size.is_automatic() && !size.function() && !size.field() && !options.max_size)
+  if (!size.is_automatic() && !size.function() && !size.field() && size.formula().empty() && !options.max_size)
     throw ConfigError("MeshOptions::max_size: expected the length of the edges, because absolute_sizes is set and the "
                       "size is uniform");
 }

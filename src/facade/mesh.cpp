@@ -124,7 +124,7 @@ std::optional<double> growth_of(const MeshOptions& given, const Size& size) {
   if (size.is_automatic())
     return size.gradation() > 0 ? std::optional(size.gradation()) : std::nullopt;
   const auto is_sized = [](const Region& region) { return region.size.has_value(); };
-  return size.function() || size.field() || std::ranges::any_of(given.regions, is_sized)
+  return size.function() || size.field() || !size.formula().empty() || std::ranges::any_of(given.regions, is_sized)
              ? std::optional(sizing::SizingRules::function_gradation)
              : std::nullopt;
 }
@@ -149,6 +149,8 @@ meshing::MeshOptions lower_options(const MeshOptions& given, const Size& size) {
 std::string text_of(const Size& size) {
   if (size.is_automatic())
     return fmt::format("automatic, gradation {:.6g}", size.gradation());
+  if (!size.formula().empty())
+    return "expression " + size.formula();
   return size.function() || size.field() ? "a function of the program" : "uniform";
 }
 

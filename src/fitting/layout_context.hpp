@@ -13,6 +13,7 @@
 #include "trime/sizing/size_field.hpp"
 
 #include <cmath>
+#include <span>
 #include <vector>
 
 namespace trime::fitting {
@@ -22,6 +23,10 @@ class GradedSize final : public sizing::SizeField {
 public:
   explicit GradedSize(const sizing::SizeField& size) : size_(size) {}
   double size(geometry::Vec2 p) const override { return size_.size(p); }
+  void sizes(std::span<const geometry::Vec2> places, std::span<double> values) const override {
+    size_.sizes(places, values);
+  }
+  bool prefers_blocks() const override { return size_.prefers_blocks(); }
 
 private:
   const sizing::SizeField& size_;

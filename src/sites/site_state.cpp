@@ -23,7 +23,8 @@ constexpr int usual_halo_margin = 2;
 constexpr int wide_halo_margin = 3;
 
 constexpr double unknown_size = 0;
-constexpr int size_chunk = 1024; // sites whose size one thread evaluates in a row
+constexpr int size_chunk = 1024;        // sites whose size one thread evaluates in a row
+constexpr LocalIndex size_block = 8192; // sites whose sizes are asked for together, if the size prefers blocks
 
 } // namespace
 
@@ -286,17 +287,45 @@ void SiteState::evaluate_sizes(const sizing::SizeField& size, LocalIndex end) {
   const LocalIndex known = static_cast<LocalIndex>(values.size()); // ghosts among them: as old as those of their owners
   const LocalIndex first = std::min(end, known >= points_.owned() ? known : 0);
   values.resize(static_cast<std::size_t>(end));
-  thread_loop(end - first, size_chunk, [&](std::ptrdiff_t k, int) {
-    const LocalIndex i = first + static_cast<LocalIndex>(k);
-    const double carried =
-        static_cast<std::size_t>(i) < carried_.size() ? carried_[static_cast<std::size_t>(i)] : unknown_size;
-    values[static_cast<std::size_t>(i)] =
-        carried != unknown_size ? carried : size.size(periods.wrap(points_.position(i)));
-  });
+  if (size.prefers_blocks())
+    evaluate_blocks(size, first, end);
+  else
+    thread_loop(end - first, size_chunk, [&](std::ptrdiff_t k, int) {
+      const LocalIndex i = first + static_cast<LocalIndex>(k);
+      const double carried = carried_size(i);
+      values[static_cast<std::size_t>(i)] =
+          carried != unknown_size ? carried : size.size(periods.wrap(points_.position(i)));
+    });
   carried_.clear();
   for (LocalIndex i = first; i < points_.owned(); ++i)
     if (const double h = values[static_cast<std::size_t>(i)]; !sizing::is_valid_size(h))
       sizing::fail_for_size(periods.wrap(points_.position(i)), h);
+}
+
+double SiteState::carried_size(LocalIndex site) const {
+  return at(site) < carried_.size() ? carried_[at(site)] : unknown_size;
+}
+
+/// Asks for the sizes of a whole block of sites at a time.
+void SiteState::evaluate_blocks(const sizing::SizeField& size, LocalIndex first, LocalIndex end) {
+  const std::span<double> values = sizes_.values();
+  thread_loop((end - first + size_block - 1) / size_block, 1, [&](std::ptrdiff_t block, int) {
+    const LocalIndex begin = first + static_cast<LocalIndex>(block) * size_block,
+                     stop = std::min(end, begin + size_block);
+    std::vector<geometry::Vec2> places;
+    std::vector<LocalIndex> sites;
+    for (LocalIndex i = begin; i < stop; ++i)
+      if (const double carried = carried_size(i); carried != unknown_size) {
+        values[at(i)] = carried;
+      } else {
+        places.push_back(grid_.periods().wrap(points_.position(i)));
+        sites.push_back(i);
+      }
+    std::vector<double> found(places.size());
+    size.sizes(places, found);
+    for (std::size_t k = 0; k < sites.size(); ++k)
+      values[at(sites[k])] = found[k];
+  });
 }
 
 delaunay::StarPass SiteState::compute_stars(const delaunay::StarBuilder& builder, const sizing::SizeField& size,

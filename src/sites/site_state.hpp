@@ -173,6 +173,8 @@ private:
   void remember_sizes();
   void carry_sizes(std::span<const LocalIndex> new_index);
   void evaluate_sizes(const sizing::SizeField& size, LocalIndex end);
+  void evaluate_blocks(const sizing::SizeField& size, LocalIndex first, LocalIndex end);
+  double carried_size(LocalIndex site) const;
   void restore_drifts(const SavedTiles& saved);
   void restore_sizes(const std::vector<double>& sizes, std::span<const LocalIndex> new_index,
                      const sizing::SizeField& size);

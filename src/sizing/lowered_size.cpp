@@ -46,6 +46,13 @@ double LoweredSize::size(geometry::Vec2 p) const {
   return is_valid_size(size) ? lowered(p, size) : size;
 }
 
+void LoweredSize::sizes(std::span<const geometry::Vec2> places, std::span<double> values) const {
+  field_.sizes(places, values);
+  for (std::size_t k = 0; k < values.size(); ++k)
+    if (is_valid_size(values[k]))
+      values[k] = lowered(places[k], values[k]);
+}
+
 std::size_t LoweredSize::memory_bytes() const {
   std::size_t bytes = 0;
   for (const Set& set : sets_)

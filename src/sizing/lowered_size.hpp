@@ -11,6 +11,7 @@
 #include <array>
 #include <initializer_list>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace trime::sizing {
@@ -70,6 +71,8 @@ public:
   /// Returns the lowered size at p. Takes about 60 ns for a thousand limits. Invalid sizes of the field are returned
   /// unchanged.
   double size(geometry::Vec2 p) const override;
+  void sizes(std::span<const geometry::Vec2> places, std::span<double> values) const override;
+  bool prefers_blocks() const override { return field_.prefers_blocks(); }
   /// Returns the lowered size at p if the field is known to have the valid value `field_size` there.
   double lowered(geometry::Vec2 p, double field_size) const;
   bool is_uniform() const override { return false; }

@@ -28,8 +28,13 @@ RaisedSize::RaisedSize(const SizeField& field, const std::vector<LeastSize>& pla
     : field_(field), periods_(periods), largest_(largest_of(places)),
       cones_(cones_of(places, largest_, periods), gradation) {}
 
-double RaisedSize::size(geometry::Vec2 p) const {
-  const double size = field_.size(p);
+void RaisedSize::sizes(std::span<const geometry::Vec2> places, std::span<double> values) const {
+  field_.sizes(places, values);
+  for (std::size_t k = 0; k < values.size(); ++k)
+    values[k] = raised(places[k], values[k]);
+}
+
+double RaisedSize::raised(geometry::Vec2 p, double size) const {
   if (!is_valid_size(size) || size >= largest_)
     return size;
   return std::fmax(size, largest_ - cones_.value(periods_.wrap(p), largest_ - size));

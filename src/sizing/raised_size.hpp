@@ -7,6 +7,7 @@
 #include "trime/sizing/size_field.hpp"
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace trime::sizing {
@@ -27,10 +28,14 @@ public:
              const geometry::Periods& periods);
   RaisedSize(const SizeField&&, const std::vector<LeastSize>&, double, const geometry::Periods&) = delete;
   /// Returns the raised size at p. An invalid size of the field is returned unchanged.
-  double size(geometry::Vec2 p) const override;
+  double size(geometry::Vec2 p) const override { return raised(p, field_.size(p)); }
+  void sizes(std::span<const geometry::Vec2> places, std::span<double> values) const override;
+  bool prefers_blocks() const override { return field_.prefers_blocks(); }
   std::size_t memory_bytes() const override { return cones_.memory_bytes(); }
 
 private:
+  double raised(geometry::Vec2 p, double size) const;
+
   const SizeField& field_;
   geometry::Periods periods_;
   double largest_;        // size of all places

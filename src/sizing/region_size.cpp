@@ -79,8 +79,13 @@ RegionSize::RegionSize(const SizeField& field, const geometry::Domain& domain, s
   }
 }
 
-double RegionSize::size(Vec2 p) const {
-  double size = field_.size(p);
+void RegionSize::sizes(std::span<const Vec2> places, std::span<double> values) const {
+  field_.sizes(places, values);
+  for (std::size_t k = 0; k < values.size(); ++k)
+    values[k] = bounded(places[k], values[k]);
+}
+
+double RegionSize::bounded(Vec2 p, double size) const {
   if (!is_valid_size(size))
     return size;
   for (const Bounded& one : bounded_)

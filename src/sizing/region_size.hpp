@@ -9,6 +9,7 @@
 #include "trime/sizing/size_field.hpp"
 
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace trime::sizing {
@@ -28,11 +29,15 @@ public:
   /// Cost: O(n log n) for n pieces around the regions.
   RegionSize(const SizeField& field, const geometry::Domain& domain, std::vector<RegionBound> bounds);
   /// Returns the size at p. An invalid size of the field is returned unchanged. Cost: one inside test for each bound.
-  double size(geometry::Vec2 p) const override;
+  double size(geometry::Vec2 p) const override { return bounded(p, field_.size(p)); }
+  void sizes(std::span<const geometry::Vec2> places, std::span<double> values) const override;
+  bool prefers_blocks() const override { return field_.prefers_blocks(); }
   bool jumps() const override { return true; }
   std::size_t memory_bytes() const override;
 
 private:
+  double bounded(geometry::Vec2 p, double size) const;
+
   struct Bounded {
     geometry::Box box;
     geometry::SegmentGrid outline;

@@ -15,6 +15,18 @@ void fail_for_size(geometry::Vec2 p, double size) {
                                   Place(p, 0), size));
 }
 
+void SizeField::sizes(std::span<const geometry::Vec2> places, std::span<double> values) const {
+  for (std::size_t k = 0; k < values.size(); ++k)
+    values[k] = size(places[k]);
+}
+
+void ScaledSize::sizes(std::span<const geometry::Vec2> places, std::span<double> values) const {
+  field_.sizes(places, values);
+  for (double& value : values)
+    if (is_valid_size(value))
+      value = scaled(value);
+}
+
 ExpressionSize::ExpressionSize(const Formula& formula, const geometry::Box& box) : formula_(formula), box_(box) {
   smallest_ = smallest_share * largest_value(formula, box);
 }

@@ -7,6 +7,7 @@
 #include <concepts>
 #include <functional>
 #include <memory>
+#include <string>
 #include <type_traits>
 
 namespace trime::sizing {
@@ -30,26 +31,31 @@ public:
   /// @pre not null
   Size(std::shared_ptr<const sizing::SizeField> field) : field_(std::move(field)) {}
 
-  /// A size is one of these: a function, a field, the automatic size, or (if none is set) a uniform size.
+  /// A size is one of these: a function, a field, a formula, the automatic size, or (if none is set) a uniform size.
   const std::function<double(geometry::Vec2)>& function() const { return function_; }
   const std::shared_ptr<const sizing::SizeField>& field() const { return field_; }
   bool is_automatic() const { return is_automatic_; }
   double gradation() const { return gradation_; } ///< gradation of the automatic size
+  /// The formula of a size that is one; otherwise empty.
+  const std::string& formula() const { return formula_; }
 
 private:
   Size() = default;
   friend Size uniform_size();
   friend Size automatic_size(double gradation);
+  friend Size formula_size(const std::string& text);
 
   std::function<double(geometry::Vec2)> function_;
   std::shared_ptr<const sizing::SizeField>
       field_; ///< shared with the caller, whose field must exist as long as this object
+  std::string formula_;
   bool is_automatic_ = false;
   double gradation_ = 0;
 };
 
 Size uniform_size();
 Size automatic_size(double gradation);
+Size formula_size(const std::string& text);
 
 namespace sizes {
 
@@ -62,6 +68,12 @@ inline Size uniform() {
 /// @param gradation 0: uniform; above 0.5, triangles can hardly follow the size
 inline Size automatic(double gradation = 0.1) {
   return automatic_size(gradation);
+}
+/// @brief Returns the size that a config gives by the key `expression`: a formula of x, y, and of the distance to the
+/// boundary, dist(), or to a part of it, dist(NAME), such as "0.01 + 0.1*dist(hole)". See configs/sizes.md. If the
+/// formula is wrong, make_mesh throws a ConfigError on all ranks.
+inline Size formula(const std::string& text) {
+  return formula_size(text);
 }
 
 } // namespace sizes

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <span>
 
 namespace trime::sizing {
 
@@ -19,6 +20,12 @@ class SizeField {
 public:
   virtual ~SizeField() = default;
   virtual double size(geometry::Vec2 p) const = 0;
+  /// @brief Sets values[k] to size(places[k]), bit for bit. The default calls size for each place.
+  /// @pre there are as many values as places
+  virtual void sizes(std::span<const geometry::Vec2> places, std::span<double> values) const;
+  /// Returns true if one call of sizes is much faster than many calls of size, as for a function of an interpreter.
+  /// Then the mesher calls sizes for blocks of places wherever it needs the size at many of them.
+  virtual bool prefers_blocks() const { return false; }
   /// Returns true if the size is the same everywhere. Then a run can start from a hexagonal lattice.
   virtual bool is_uniform() const { return false; }
   /// Returns an upper bound on the growth of the size per unit of distance; infinity if it is not known. The mesher
@@ -79,6 +86,8 @@ public:
     const double size = factor_ * relative;
     return size < min_size_ ? min_size_ : size > max_size_ ? max_size_ : size;
   }
+  void sizes(std::span<const geometry::Vec2> places, std::span<double> values) const override;
+  bool prefers_blocks() const override { return field_.prefers_blocks(); }
   double factor() const { return factor_; }
   bool is_uniform() const override { return field_.is_uniform(); }
 

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "trime/facade/mesh.hpp"
+#include "bindings.hpp"
+#include "mesh_options.hpp"
+#include "python_size.hpp"
+#include "trime/comm/from_mpi.hpp"
+
+#include <fmt/format.h>
+
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace py = pybind11;
+
+namespace trime::python {
+namespace {
+
+MPI_Comm communicator_of(const py::object& comm) {
+  if (!py::hasattr(comm, "py2f"))
+    throw py::type_error(fmt::format("comm: expected a communicator of mpi4py, such as MPI.COMM_WORLD, found an object "
+                                     "of type {}",
+                                     std::string(py::str(py::type::of(comm).attr("__name__")))));
+  return MPI_Comm_f2c(comm.attr("py2f")().cast<MPI_Fint>());
+}
+
+/// Makes the exception of the package for an error of the library.
+py::object exception_of(const Error& error) {
+  const py::object make = py::module_::import("trime_mpi.errors").attr("error_of");
+  return make(static_cast<int>(error.code()), std::vector<std::string>{error.what()});
+}
+
+[[noreturn]] void raise(const Error& error, const py::object& cause) {
+  const py::object exception = exception_of(error);
+  if (!cause.is_none())
+    exception.attr("__cause__") = cause;
+  PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(exception.ptr())), exception.ptr());
+  throw py::error_already_set();
+}
+
+std::unique_ptr<Mesh> make(const py::object& comm, const Shape& shape, const py::object& size,
+                           const py::dict& keywords) {
+  const MPI_Comm handle = communicator_of(comm);
+  const MeshOptions options = options_of(keywords);
+  const GivenSize given = size_of(size);
+  std::optional<Error> error;
+  try {
+    const py::gil_scoped_release others_may_run;
+    return std::make_unique<Mesh>(make_mesh(handle, shape, given.size, options));
+  } catch (const Error& failed) {
+    error = failed;
+  }
+  raise(*error, given.function ? given.function->failure() : py::none());
+}
+
+/// Lets errors of the library become exceptions of the package.
+void translate_errors() {
+  py::register_exception_translator([](std::exception_ptr pointer) {
+    try {
+      if (pointer)
+        std::rethrow_exception(pointer);
+    } catch (const Error& error) {
+      const py::object exception = exception_of(error);
+      PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(exception.ptr())), exception.ptr());
+    }
+  });
+}
+
+py::list checks_of(const Mesh& mesh) {
+  py::list checks;
+  for (const mesh::Check& check : mesh.checks())
+    checks.append(py::make_tuple(check.name, check.passed, check.expected, check.found, check.meaning));
+  return checks;
+}
+
+py::dict quality_of(const Mesh& mesh) {
+  const mesh::QualitySummary& quality = mesh.quality();
+  py::dict values;
+  for (const auto& [name, ratio] : {std::pair{"alpha", quality.alpha}, std::pair{"beta", quality.beta}}) {
+    const std::string start = std::string(name) + "_";
+    values[py::str(start + "median")] = ratio.median;
+    values[py::str(start + "mean")] = ratio.mean;
+    values[py::str(start + "max")] = ratio.max;
+    values[py::str(start + "half_mean")] = ratio.half_mean;
+    values[py::str(start + "std")] = ratio.std;
+  }
+  values["min_angle_degrees"] = quality.min_angle_degrees;
+  values["shortest_edge"] = quality.shortest_edge;
+  values["bad_triangles"] = quality.bad_triangles;
+  values["obtuse_triangles"] = quality.obtuse_triangles;
+  values["size_mean"] = quality.size_mean;
+  values["size_std"] = quality.size_std;
+  return values;
+}
+
+void write(const Mesh& mesh, const std::string& path, bool overwrite, bool vtkhdf, bool xdmf) {
+  const py::gil_scoped_release others_may_run;
+  mesh.write(path, {overwrite, vtkhdf, xdmf});
+}
+
+py::dict names_of(const Mesh& mesh) {
+  const MeshNames names = mesh.names();
+  py::dict values;
+  values["facets"] = names.facets;
+  values["regions"] = names.regions;
+  values["curves"] = names.curves;
+  values["interfaces"] = names.interfaces;
+  values["split_curves"] = names.split_curves;
+  return values;
+}
+
+} // namespace
+
+void bind_mesh(py::module_& module) {
+  translate_errors();
+  py::class_<Region>(module, "Region")
+      .def(py::init<std::string, Shape, std::optional<double>>(), py::arg("name"), py::arg("shape"),
+           py::arg("size") = py::none());
+  py::class_<Curve>(module, "Curve")
+      .def(py::init([](std::string name, const std::vector<Places>& lines, bool clip, bool split) {
+             Curve curve{std::move(name), {}, clip, split};
+             for (const Places& line : lines)
+               curve.lines.push_back(places_of(line, "a line of a curve"));
+             return curve;
+           }),
+           py::arg("name"), py::arg("lines"), py::arg("clip") = false, py::arg("split") = false);
+  py::class_<Mesh>(module, "Mesh")
+      .def_property_readonly("points", &Mesh::points)
+      .def_property_readonly("triangles", &Mesh::triangles)
+      .def_property_readonly("certified", &Mesh::certified)
+      .def_property_readonly("hash", [](const Mesh& mesh) { return fmt::format("{:016x}", mesh.hash()); })
+      .def_property_readonly("checks", checks_of)
+      .def_property_readonly("quality", quality_of)
+      .def_property_readonly("names", names_of)
+      .def("write", write)
+      .def("local", [](const Mesh& mesh) {
+        const py::gil_scoped_release others_may_run;
+        return std::make_unique<LocalMesh>(mesh.local());
+      });
+  module.def("make_mesh", make);
+  module.def("read_mesh", [](const py::object& comm, const std::string& path) {
+    const MPI_Comm handle = communicator_of(comm);
+    const py::gil_scoped_release others_may_run;
+    return std::make_unique<Mesh>(read_mesh(handle, path));
+  });
+  module.def("mpi_library", [] { return comm::library_version(); });
+}
+
+} // namespace trime::python

@@ -1,0 +1,137 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs on the ranks of python_parallel_test.py: makes meshes in place, and prints what rank 0 has found as JSON."""
+import gc
+import json
+import pathlib
+import sys
+
+import numpy as np
+from mpi4py import MPI
+from trime_mpi import ConfigError, GeometryError, parallel
+
+comm = MPI.COMM_WORLD
+PLATE = parallel.rectangle("plate", (0, 0), (2, 1)) - parallel.circle("hole", (1, 0.5), 0.2)
+
+
+def holes(p):
+    """A size that NumPy computes with the bits of the formula of the config."""
+    return 1 + 3 * p[:, 0] * p[:, 0] + p[:, 1]
+
+
+def agreed(condition):
+    """Is it true on all ranks?"""
+    return bool(comm.allreduce(bool(condition), MPI.LAND))
+
+
+def check_arrays(mesh):
+    """What must hold of the arrays, by name."""
+    points, triangles, owned = mesh.points, mesh.triangles, mesh.owned_points
+    a, b, c = (points[triangles[:mesh.owned_triangles, k]] for k in range(3))
+    areas = 0.5 * ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
+    values = np.stack([np.sin(points[:, 0]), points[:, 1]], axis=1)
+    expected = values.copy()
+    values[owned:] = -7
+    mesh.update_ghosts(values)
+    ones = np.ones(len(points))
+    mesh.add_to_owners(ones)
+    hole = mesh.facets[mesh.facets_of("hole")]
+    return {
+        "area": abs(comm.allreduce(areas.sum()) - (2 - np.pi * 0.04)) < 1e-3,
+        "counts": comm.allreduce(owned) == mesh.total_points and comm.allreduce(mesh.owned_triangles) ==
+        mesh.total_triangles,
+        "ids": list(mesh.global_ids[:owned]) == list(range(mesh.first_point, mesh.first_point + owned)) and
+        list(mesh.global_ids[owned:]) == list(mesh.ghost_ids),
+        "owners": len(mesh.ghost_owners) == len(mesh.ghost_ids) and comm.rank not in mesh.ghost_owners,
+        "views": not (points.flags.owndata or points.flags.writeable) and triangles.dtype == np.int32,
+        "ghosts": np.array_equal(values, expected),
+        "sums": comm.allreduce(ones[:owned].sum()) == comm.allreduce(len(points)),
+        "hole": np.allclose(np.hypot(*(points[hole] - [1, 0.5]).reshape(-1, 2).T), 0.2, atol=1e-3),
+    }
+
+
+def check_lifetime():
+    """Do arrays keep the memory that they show?"""
+    points = parallel.mesh(comm, PLATE, points=300).points
+    before = points.copy()
+    gc.collect()
+    parallel.mesh(comm, PLATE, points=310)
+    return np.array_equal(points, before)
+
+
+def failing(last):
+    """A size that fails on the last rank, or everywhere."""
+    def size(p):
+        if not last or comm.rank == comm.size - 1:
+            raise ZeroDivisionError("a fault of the user")
+        return holes(p)
+    return size
+
+
+def error_of(**options):
+    """The exception of a mesh: its type and text on rank 0, and the type of the cause on the last rank."""
+    try:
+        parallel.mesh(comm, PLATE, **{"points": 300, **options})
+    except (ConfigError, GeometryError) as error:
+        kinds = comm.allgather((type(error).__name__, str(error), type(error.__cause__).__name__))
+        return [*kinds[0][:2], kinds[-1][2], len({kind[0] for kind in kinds})]
+    return None
+
+
+def poisson(points):
+    """The L2 error of a solution with sources and a value on a part of the boundary, and what the tags say."""
+    import ufl
+    from dolfinx import fem
+    from petsc4py import PETSc
+    copper = parallel.Region("copper", parallel.rectangle("end", (0.5, 0), (1, 1)))
+    square = parallel.rectangle("square", (0, 0), (1, 1))
+    domain = parallel.mesh(comm, square, points=points, regions=[copper], rest="iron").to_dolfinx()
+    space = fem.FunctionSpace(domain.mesh, ("CG", 1))
+    x = ufl.SpatialCoordinate(domain.mesh)
+    exact = ufl.sin(np.pi * x[0]) * ufl.sin(np.pi * x[1])
+    u, v = ufl.TrialFunction(space), ufl.TestFunction(space)
+    held = fem.dirichletbc(PETSc.ScalarType(0), fem.locate_dofs_topological(space, 1, domain.find("square")), space)
+    found = fem.petsc.LinearProblem(ufl.inner(ufl.grad(u), ufl.grad(v)) * ufl.dx, 2 * np.pi**2 * exact * v * ufl.dx,
+                                    [held], petsc_options={"ksp_type": "cg", "ksp_rtol": 1e-10}).solve()
+
+    def total(form):
+        return comm.allreduce(fem.assemble_scalar(fem.form(form)))
+
+    one, names = fem.Constant(domain.mesh, PETSc.ScalarType(1)), domain.facets
+    cells = ufl.Measure("dx", domain.mesh, subdomain_data=domain.cell_tags)
+    outer = ufl.Measure("ds", domain.mesh, subdomain_data=domain.facet_tags)
+    owned = domain.mesh.topology.index_map(1).size_local
+    return {"error": np.sqrt(total((found - exact)**2 * ufl.dx)),
+            "copper": total(one * cells(domain.regions["copper"])), "rim": total(one * outer(names["square"])),
+            "between": comm.allreduce(int((domain.find("iron|copper") < owned).sum()))}
+
+
+def main(directory):
+    """Prints all findings."""
+    found = {"ranks": comm.size}
+    plain = parallel.mesh(comm, PLATE, points=2000)
+    found["uniform"] = plain.hash
+    found["arrays"] = {name: agreed(holds) for name, holds in check_arrays(plain).items()}
+    found["arrays"]["lifetime"] = agreed(check_lifetime())
+    found["formula"] = parallel.mesh(comm, PLATE, points=2000, size="1 + 3*x*x + y").hash
+    graded = parallel.mesh(comm, PLATE, points=2000, size=holes)
+    found["callable"] = graded.hash
+    found["checks"] = all(check.passed for check in graded.checks) and graded.quality["alpha_median"] < 1.1
+    found["automatic"] = parallel.mesh(comm, PLATE, points=2000, size=parallel.automatic(0.1)).hash
+    graded.write(directory / f"graded{comm.size}.h5")
+    found["read"] = parallel.read(comm, directory / f"graded{comm.size}.h5").hash
+    found["failed"] = error_of(size=failing(last=True))
+    found["wrong"] = error_of(size=lambda p: np.ones(len(p) + 1))
+    found["negative"] = error_of(size=lambda p: p[:, 0] - 1)
+    found["formula_error"] = error_of(size="1 + z")
+    found["no_count"] = error_of(points=None)
+    lines = plain.to_meshio().cells_dict["line"]
+    found["meshio"] = comm.allreduce(len(lines)) == comm.allreduce(plain.owned_facets)
+    if comm.size == 2:
+        found["poisson"] = [poisson(points) for points in (1000, 4000)]
+    if comm.rank == 0:
+        print(json.dumps(found, default=str))
+
+
+if __name__ == "__main__":
+    main(pathlib.Path(sys.argv[1]))

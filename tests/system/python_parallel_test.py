@@ -1,0 +1,97 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Tests trime_mpi.parallel, which makes meshes in place, on 1, 2 and 3 ranks: the meshes of the program, arrays without
+copies, sizes by functions, exceptions on all ranks, and Poisson's equation in dolfinx without a file."""
+import json
+import math
+import os
+import re
+import subprocess
+import sys
+import unittest
+
+from trime_run import MPIEXEC, ROOT, WorkspaceCase, environment, run
+
+PYTHON_PATH = os.pathsep.join([str(ROOT / "scripts" / "python"), os.environ.get("PYTHONPATH", "")])
+PLATE = """[shape]
+geometry = difference(plate, hole)
+[shape.plate]
+type = rectangle
+corners = 0 0 2 1
+[shape.hole]
+type = circle
+center = 1 0.5
+radius = 0.2
+[meshing]
+points = 2000
+"""
+
+
+def python(*arguments, ranks=1, timeout=120):
+    """Runs a Python program on some ranks, and returns what it has printed."""
+    start = [] if ranks == 1 else [MPIEXEC, "-np", str(ranks)]
+    done = subprocess.run([*start, sys.executable, *map(str, arguments)], capture_output=True, text=True, check=False,
+                          timeout=timeout, env=environment(1) | {"PYTHONPATH": PYTHON_PATH})
+    if done.returncode:
+        raise AssertionError(f"{arguments} on {ranks} ranks: exit code {done.returncode}\n{done.stdout}{done.stderr}")
+    return done.stdout
+
+
+class Parallel(WorkspaceCase):
+    def hash_of_program(self, sizing):
+        config = self.directory / "plate.ini"
+        config.write_text(PLATE + sizing)
+        done = run(config, "output.overwrite=true", f"output.directory={self.directory}")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        return re.search(r"hash\W+([0-9a-f]{16})", done.stdout)[1]
+
+    def check_errors(self, found):
+        kind, text, cause, kinds = found["failed"]
+        self.assertEqual((kind, cause, kinds), ("GeometryError", "ZeroDivisionError", 1))
+        self.assertRegex(text, r"size function failed .*ZeroDivisionError: a fault of the user \(.*ranks.py, line \d+")
+        self.assertEqual(found["wrong"][0], "GeometryError")
+        self.assertRegex(found["wrong"][1], r"expected (\d+) sizes for an array with the shape \(\1, 2\), found")
+        self.assertRegex(found["negative"][1], "expected a positive finite size, found -")
+        self.assertEqual(found["formula_error"][0], "ConfigError")
+        self.assertEqual(found["no_count"][0], "ConfigError")
+
+    def test_the_same_mesh_on_all_ranks_as_by_the_program(self):
+        expected = {"uniform": self.hash_of_program(""),
+                    "automatic": self.hash_of_program("[sizing]\ntype = automatic\n"),
+                    "formula": self.hash_of_program("[sizing]\ntype = expression\nexpression = 1 + 3*x*x + y\n")}
+        for ranks in (1, 2, 3):
+            found = json.loads(python(ROOT / "tests" / "system" / "python_parallel_ranks.py", self.directory,
+                                      ranks=ranks).splitlines()[-1])
+            self.assertEqual(found["ranks"], ranks)
+            self.assertEqual({name: found[name] for name in expected}, expected)
+            self.assertEqual([found["callable"], found["read"]], 2 * [expected["formula"]])
+            self.assertEqual([name for name, holds in found["arrays"].items() if not holds], [])
+            self.assertTrue(found["checks"] and found["meshio"])
+            self.check_errors(found)
+            if ranks == 2:
+                self.check_poisson(*found["poisson"])
+
+    def check_poisson(self, coarse, fine):
+        order = math.log2(coarse["error"] / fine["error"])  # from 1000 to 4000 points h is halved
+        self.assertAlmostEqual(order, 2, delta=0.15)
+        for found in (coarse, fine):
+            self.assertAlmostEqual(found["copper"], 0.5, places=9)
+            self.assertAlmostEqual(found["rim"], 4, places=9)
+            self.assertGreater(found["between"], 20)
+
+    def test_import_without_mpi(self):
+        text = python("-c", "import sys, trime_mpi.parallel; print('mpi4py.MPI' in sys.modules)")
+        self.assertEqual(text.strip(), "False")
+
+    def test_the_example_adapts(self):
+        for ranks in (1, 2):
+            text = python(ROOT / "src" / "examples" / "adaptive.py", ranks=ranks)
+            found = [(int(points), float(estimate)) for points, estimate in
+                     re.findall(r"(\d+) points: estimate ([\d.]+)", text)]
+            self.assertEqual(len(found), 4)
+            levels = [estimate * math.sqrt(points) for points, estimate in found[1:]]
+            self.assertLess(max(levels) / min(levels), 1.15, found)  # the order of linear elements, despite the corner
+
+
+if __name__ == "__main__":
+    unittest.main()
