@@ -3,8 +3,8 @@
 // file after it was read and checked.
 #pragma once
 
-#include "app/courant.hpp"
 #include "formats/mesh_series.hpp"
+#include "record/courant.hpp"
 #include "sizing/boundary_distance.hpp"
 #include "trime/core/log.hpp"
 #include "trime/geometry/lattice.hpp"
@@ -122,7 +122,7 @@ struct RunOptions {
   std::vector<FieldOptions> fields; ///< data that a formula uses
   SizingOptions sizing;
   FormulaText depth;               ///< formula of the depth at points; empty if none is asked for
-  CourantOptions courant;          ///< time step of the model that will use the mesh
+  record::CourantOptions courant;  ///< time step of the model that will use the mesh
   bool scale_is_automatic = false; ///< true if the user does not say whether sizes are lengths
   int setup_threads = 0;           ///< threads per rank while shape and size field are made; 0: chosen from the machine
   int mesh_threads = 0;            ///< threads per rank during meshing; 0: chosen from the machine

@@ -280,6 +280,7 @@ private:
                         const Measurements& measured) const;
   io::WrittenFiles publish(const Provenance& provenance, const meshing::MeshResult& result, const SizeSummary& sizes);
   void add_depths(meshing::MeshResult& result);
+  void print_results(const RunFacts& facts) const;
 
   const Job& job_;
   const Placement placement_;
@@ -290,8 +291,8 @@ private:
   formats::MeshSeries series_;
   const meshing::MeshOptions mesh_; // with places in the container
   BuiltSize size_;
-  double points_ = 0;                     // about as many as the mesh will have
-  std::optional<CourantSummary> courant_; // of the final mesh, if the config has a time step
+  double points_ = 0;                             // about as many as the mesh will have
+  std::optional<record::CourantSummary> courant_; // of the final mesh, if the config has a time step
 };
 
 void MeshRun::check_output() {
@@ -343,14 +344,14 @@ void MeshRun::add_depths(meshing::MeshResult& result) {
   const auto timing = job_.timers.scope("depth");
   add_depth(build_formula(job_.options.depth, input_.domain(), fields_), result, job_.comm);
   if (job_.options.courant.time_step > 0)
-    courant_ = courant_numbers(job_.options.courant, result.mesh, job_.comm);
+    courant_ = record::courant_numbers(job_.options.courant, result.mesh, job_.comm);
 }
 
 io::Metadata MeshRun::describe(const Provenance& provenance, const meshing::MeshResult& result,
                                const SizeSummary& sizes, const Measurements& measured) const {
   io::Metadata metadata = describe_run(provenance, result, sizes, measured);
   if (courant_)
-    metadata.groups.push_back(group_of(*courant_));
+    metadata.groups.push_back(record::group_of(*courant_));
   return metadata;
 }
 
@@ -359,6 +360,23 @@ io::WrittenFiles MeshRun::publish(const Provenance& provenance, const meshing::M
   const io::Metadata metadata = describe(provenance, result, sizes, gather_measurements(job_.timers, job_.comm));
   const auto timing = job_.timers.scope("output");
   return series_.write_final({final_retriangulation(result), result.mesh, result.quality, metadata});
+}
+
+/// Prints the summary or the report of a finished run, and what its formats and options ask for.
+void MeshRun::print_results(const RunFacts& facts) const {
+  if (job_.options.log_level <= LogLevel::info)
+    job_.log.info("{}", run_report(facts.result, facts.size, facts.measured, facts.files, input_.normalized));
+  else
+    job_.log.summary("{}", run_summary(facts));
+  for (const formats::Format format : {formats::Format::adcirc, formats::Format::schism})
+    if (job_.options.write && job_.options.output.wants(format))
+      job_.log.summary("{}: {}", formats::info_of(format).word,
+                       formats::open_boundary_text(series_options(job_, input_).names, facts.part_edges));
+  if (courant_)
+    job_.log.summary("{}", record::text_of(*courant_));
+  print_cells(series_.cells(), job_.log);
+  if (!is_complete(facts.result))
+    job_.log.warning("{}", incompleteness(facts.result, job_.options.write));
 }
 
 ExitCode MeshRun::run() {
@@ -392,19 +410,7 @@ ExitCode MeshRun::run() {
   keeper_.remove_all();
   const std::vector<std::int64_t> edges =
       edges_of_parts(result.mesh, boundary().part_names.size() + input_.domain().curves().names.size(), job_.comm);
-  if (job_.options.log_level <= LogLevel::info)
-    job_.log.info("{}", run_report(result, sizes, measured, files, input_.normalized));
-  else
-    job_.log.summary("{}", run_summary({provenance, result, sizes, measured, files, edges}));
-  for (const formats::Format format : {formats::Format::adcirc, formats::Format::schism})
-    if (job_.options.write && job_.options.output.wants(format))
-      job_.log.summary("{}: {}", formats::info_of(format).word,
-                       formats::open_boundary_text(series_options(job_, input_).names, edges));
-  if (courant_)
-    job_.log.summary("{}", text_of(*courant_));
-  print_cells(series_.cells(), job_.log);
-  if (!is_complete(result))
-    job_.log.warning("{}", incompleteness(result, job_.options.write));
+  print_results({provenance, result, sizes, measured, files, edges});
   return code;
 }
 

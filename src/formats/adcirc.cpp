@@ -14,7 +14,7 @@ namespace {
 
 constexpr int weir = 24; // in fort.14: between two points, with a height and coefficients
 
-/// What the two formats do differently.
+/// Says what the two formats do differently.
 struct Dialect {
   const char* word;
   int mainland, island; ///< in fort.14 with the natural condition of no flow

@@ -14,10 +14,10 @@ namespace trime::formats {
 /// @throws FileError if a place has none
 void to_degrees(std::vector<geometry::Vec2>& places, const std::string& crs, const char* format);
 
-/// What the third number of a point is: positive downwards or upwards.
+/// Says whether the third number of a point is positive downwards or upwards.
 enum class Height { depth, elevation };
 
-/// How a format writes a point.
+/// Says how a format writes a point.
 struct PointStyle {
   std::string start;  ///< text before the number of the point
   const char* format; ///< word of the format, for messages

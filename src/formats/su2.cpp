@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The native mesh of SU2 (documentation, "Mesh File"): triangles, points, and a marker for each named part of the
-// boundary. Edges inside the shape are no markers in SU2, so curves and interfaces are left out, except for the sides
+// boundary. A marker of SU2 has edges on the boundary only, so curves and interfaces are left out, except for the sides
 // of curves that are split.
 #include "formats/exchange_mesh.hpp"
 #include "formats/solver_names.hpp"

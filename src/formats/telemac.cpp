@@ -143,7 +143,8 @@ std::vector<FilePlan> plan_telemac(const ExchangeMesh& mesh, const std::string& 
   rows.push_back(mesh.once(record(time)));
   add_record(
       mesh, [&data](std::size_t row) { return data.depth ? 0.0 - (*data.depth)[row] : 0.0; }, rows);
-  return {{path, rows}, {paths_of(Format::telemac, path, mesh.names())[1], {mesh.once(conditions(rings, open_parts(mesh.names())))}}};
+  return {{path, rows},
+          {paths_of(Format::telemac, path, mesh.names())[1], {mesh.once(conditions(rings, open_parts(mesh.names())))}}};
 }
 
 } // namespace trime::formats

@@ -68,7 +68,8 @@ class CoastFormats(WorkspaceCase):
         depth = 1 - elevation(expected.points)
         with h5py.File(self.directory / "bay.h5") as file:
             np.testing.assert_allclose(file["VTKHDF/PointData/depth"][:], depth, rtol=1e-9)
-        gr3, slf, su2 = Gr3(self.directory / "bay.gr3"), Slf(self.directory / "bay.slf"), Su2(self.directory / "bay.su2")
+        gr3, slf, su2 = (kind(self.directory / f"bay.{ending}") for kind, ending in
+                         ((Gr3, "gr3"), (Slf, "slf"), (Su2, "su2")))
         for read in (gr3, slf, su2):
             np.testing.assert_array_equal(read.points, expected.points)
             np.testing.assert_array_equal(read.triangles, expected.triangles)
@@ -87,7 +88,7 @@ class CoastFormats(WorkspaceCase):
         self.assertEqual(sorted((name, kind) for name, kind, _ in gr3.land), [("bay.coast", 0), ("bay.island", 1)])
         edges, labels = [], []
         for name, kind, points in gr3.open + gr3.land:
-            ring = points + points[:1] if kind == 1 else points # without its first point at the end
+            ring = points + points[:1] if kind == 1 else points  # without its first point at the end
             edges += list(zip(ring, ring[1:]))
             labels += [expected.parts[name]] * (len(ring) - 1)
         self.assertEqual(rows(np.array(edges), labels), expected.rim_rows())
@@ -119,7 +120,7 @@ class CoastFormats(WorkspaceCase):
             self.assertEqual(done.returncode, 0, done.stderr)
         for name in FILES:
             again = (self.directory / "again" / name).read_bytes()
-            if name.endswith((".gr3", ".14")): # the first line is the path
+            if name.endswith((".gr3", ".14")):  # the first line is the path
                 again, expected[name] = (text.split(b"\n", 1)[1] for text in (again, expected[name]))
             self.assertEqual(again, expected[name], name)
 

@@ -6,7 +6,7 @@ import numpy as np
 
 
 class Gr3:
-    """hgrid.gr3 of SCHISM. Strings are (name, type, points) with points from 0; the type is None for open ones."""
+    """hgrid.gr3 of SCHISM. Strings are (name, type, points) with points from 0; open ones have no type."""
 
     def __init__(self, path):
         lines = path.read_text().splitlines()

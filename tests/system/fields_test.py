@@ -112,7 +112,7 @@ class Fields(unittest.TestCase):
             write_netcdf(work / "i.nc", counts, at, at, "i2", scale_factor=0.001, _FillValue=numpy.int16(-1))
             self.refuse(work, "i.nc", "row 4, column 3")
             self.mesh(work, "i.nc", "field.h.fill=nearest")
-            counts[3][2] = -32767 # what the NetCDF library leaves in a cell that nobody has written
+            counts[3][2] = -32767  # what the NetCDF library leaves in a cell that nobody has written
             write_netcdf(work / "unwritten.nc", counts, at, at, "i2", scale_factor=0.001)
             self.refuse(work, "unwritten.nc", "row 4, column 3")
 

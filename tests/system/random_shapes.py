@@ -14,8 +14,8 @@ CURVES = ["sqrt(({x}-{a})^2+({y}-{b})^2)-{r}", "max(abs({x}-{a}),abs({y}-{b}))-{
           "sqrt(({x}-{a})^2+({y}-{b})^2)-{r}*(1+0.3*cos(5*atan2({y}-{b},{x}-{a})))",
           "min(sqrt(({x}-{a})^2+({y}-{b})^2),abs({x}-{b})+abs({y}-{a}))-{r}", "sin(2*pi*{x})*sin(2*pi*{y})-{a}",
           "({x}-{a})*({y}-{b})-{r}/4", "sin(60*{x})*sin(60*{y})-{a}", "sin(1/({x}-{a}+1e-9))*{r}-({y}-{b})^2"]
-FORMATS = ["vtkhdf", "xdmf", "text", "gmsh", "gmsh2", "medit", "freefem", "triangle", "vtu", "2dm", "fort14", "gr3", "slf",
-           "su2", "geojson", "abaqus", "exodus"]
+FORMATS = ["vtkhdf", "xdmf", "text", "gmsh", "gmsh2", "medit", "freefem", "triangle", "vtu", "2dm", "fort14", "gr3",
+           "slf", "su2", "geojson", "abaqus", "exodus"]
 
 
 class RandomConfig:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/courant.hpp"
+#include "record/courant.hpp"
 
 #include "io/point_lookup.hpp"
 #include "trime/core/error.hpp"
@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-namespace trime::app {
+namespace trime::record {
 namespace {
 
 using geometry::Vec2;
@@ -96,4 +96,4 @@ io::MetadataGroup group_of(const CourantSummary& s) {
           {}};
 }
 
-} // namespace trime::app
+} // namespace trime::record

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <string>
 
-namespace trime::app {
+namespace trime::record {
 
 /// The time step of a model, and the Courant number that it should not exceed.
 struct CourantOptions {
@@ -39,4 +39,4 @@ std::string text_of(const CourantSummary& summary);
 /// Returns the summary as a group of the mesh file.
 io::MetadataGroup group_of(const CourantSummary& summary);
 
-} // namespace trime::app
+} // namespace trime::record
