@@ -123,8 +123,8 @@ private:
     double width = std::numeric_limits<double>::infinity();
     tree_.for_each_within(center, lens_radius * length, [&](const SiteTree::Entry& item) {
       const double height = geometry::dot(item.position - chord.a, inward);
-      if (height > 0 && !is_near(k, item.index) && !(has_curves_ && is_around_corner(k, item.index)))
-        width = std::fmin(width, height);
+      if (height > 0 && height < width && !is_near(k, item.index) && !(has_curves_ && is_around_corner(k, item.index)))
+        width = height;
     });
     return width;
   }
@@ -147,8 +147,9 @@ private:
       const bool left_of_ahead = geometry::cross(ahead, across) > 0, right_of_back = geometry::cross(across, back) > 0;
       const bool inside =
           geometry::cross(ahead, back) > 0 ? left_of_ahead && right_of_back : left_of_ahead || right_of_back;
-      if (inside && !is_around_corner(k, item.index))
-        gap = std::fmin(gap, geometry::length(across));
+      if (const double distance = geometry::length(across);
+          inside && distance < gap && !is_around_corner(k, item.index))
+        gap = distance;
     });
     return gap;
   }
