@@ -46,7 +46,7 @@ ARROWS = {
     "record": ["comm", "geometry", "mesh", "shape", "polygon", "boundary", "sweep", "meshing", "io"],
     "formats": ["comm", "geometry", "mesh", "dual", "projection", "io"],
     "handover": ["comm", "geometry", "mesh"],
-    "dual": ["comm", "geometry", "mesh"],
+    "dual": ["comm", "mesh"],
     "facade": ["comm", "geometry", "contours", "tracing", "shape", "sizing", "boundary", "sweep", "mesh", "meshing",
                "io", "record", "formats", "handover"],
     "app": ["comm", "geometry", "contours", "tracing", "shape", "projection", "fields", "sizing", "polygon", "boundary",

@@ -276,6 +276,7 @@ private:
   void check_output();
   meshing::MeshResult make_mesh(const Provenance& provenance);
   io::WrittenFiles publish(const Provenance& provenance, const meshing::MeshResult& result, const SizeSummary& sizes);
+  void print_about_formats(const std::vector<std::int64_t>& edges) const;
 
   const Job& job_;
   const Placement placement_;
@@ -338,6 +339,13 @@ io::WrittenFiles MeshRun::publish(const Provenance& provenance, const meshing::M
   return series_.write_final({final_retriangulation(result), result.mesh, result.quality, metadata});
 }
 
+/// Prints what the user should know about single formats. @param edges by part, see edges_of_parts
+void MeshRun::print_about_formats(const std::vector<std::int64_t>& edges) const {
+  if (job_.options.write && job_.options.output.wants(formats::Format::adcirc))
+    job_.log.summary("fort14: {}", formats::open_boundary_text(series_options(job_, input_).names, edges));
+  print_cells(series_.cells(), job_.log);
+}
+
 ExitCode MeshRun::run() {
   check_share(points_, placement_.ranks);
   const Provenance provenance{job_.line,
@@ -372,9 +380,7 @@ ExitCode MeshRun::run() {
     job_.log.info("{}", run_report(result, sizes, measured, files, input_.normalized));
   else
     job_.log.summary("{}", run_summary({provenance, result, sizes, measured, files, edges}));
-  if (job_.options.write && job_.options.output.wants(formats::Format::adcirc))
-    job_.log.summary("fort14: {}", formats::open_boundary_text(series_options(job_, input_).names, edges));
-  print_cells(series_.cells(), job_.log);
+  print_about_formats(edges);
   if (!is_complete(result))
     job_.log.warning("{}", incompleteness(result, job_.options.write));
   return code;
