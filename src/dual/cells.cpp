@@ -214,7 +214,7 @@ void order_fans(Cells& cells, const comm::Communicator& comm) {
       if (kinds[k] == FanKind::broken)
         throw FileError(
             fmt::format("the triangles around the point {}, counted from 0, at ({:.9g}, {:.9g}) are not one "
-                        "fan, so it has no Voronoi cell; expected all of them to follow each other around "
+                        "fan, so it has no Voronoi cell. Expected all of them to follow each other around "
                         "the point, found {} triangles that do not; look at the mesh there",
                         cells.first_site + static_cast<GlobalId>(k), cells.points[k].x, cells.points[k].y,
                         cells.fan_first[k + 1] - cells.fan_first[k]));

@@ -47,14 +47,14 @@ struct Fan {
 
 /// @brief The cells of one rank. Memory: 130 bytes per point.
 struct Cells {
-  Shares shares;               ///< of the sites
+  Shares shares;               ///< shares of the sites
   GlobalId first_site = 0;     ///< number of the first site of this rank
   LocalIndex site_count = 0;   ///< on this rank
   GlobalId triangle_count = 0; ///< over all ranks
   geometry::Vec2 period{0, 0};
   std::vector<geometry::Vec2> points;  ///< the sites, then points of other ranks
   std::vector<GlobalId> foreign;       ///< numbers of the points of other ranks, ascending
-  std::vector<CellTriangle> triangles; ///< those with a corner at a site of this rank, by number
+  std::vector<CellTriangle> triangles; ///< triangles with a corner at a site of this rank, by number
   std::vector<std::int64_t> fan_first; ///< for each site, and the end: its first entry in `fans`
   std::vector<LocalIndex> fans;        ///< indices of triangles, site by site
   std::vector<bool> closed;            ///< for each site: no boundary edge ends there

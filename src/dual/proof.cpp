@@ -55,7 +55,7 @@ CoordinateRange range_of(const Cells& cells, const comm::Communicator& comm) {
   return range;
 }
 
-/// What a rank counts at its sites.
+/// Holds what a rank counts at its sites.
 struct SiteTotals {
   std::int64_t parts = 0, boundary_cells = 0, corners = 0, spokes = 0, outside = 0, negative = 0, not_positive = 0;
   std::int64_t most_corners = 0;
@@ -203,7 +203,7 @@ CellProof prove(const mesh::DistributedMesh& mesh, const Cells& cells, std::size
   const GlobalId points = mesh.point_slab.total, facets = mesh.facet_slab.total, count = mesh.triangle_slab.total;
   const double area = sum_of(sites.areas), wanted = sum_of(triangles);
   // Cells: circumcentres, middles of boundary edges and boundary sites; each edge lies in two cells, those on the
-  // boundary in one. Triangles have 3 sides each, which they share but for the boundary.
+  // boundary in one. Triangles have 3 sides each, which they share except on the boundary.
   const std::int64_t vertices = count + facets + sites.boundary_cells;
   const std::int64_t twice_euler = 2 * (vertices + points) - (sites.corners + 2 * sites.boundary_cells);
   const std::int64_t twice_mesh = 2 * (points + count) - (3 * count + facets);

@@ -10,8 +10,8 @@
 
 namespace trime::dual {
 
-/// @brief What lies around a site, counter-clockwise. Spoke k is the edge from the site to a neighbour, and triangle k
-/// lies between the spokes k and k + 1. At a site on the boundary there is one spoke more than triangles.
+/// @brief Holds what lies around a site, counter-clockwise. Spoke k is the edge from the site to a neighbour, and
+/// triangle k lies between the spokes k and k + 1. At a site on the boundary there is one spoke more than triangles.
 struct Surroundings {
   bool is_closed = true;               ///< no boundary edge ends at the site
   std::vector<LocalIndex> ends;        ///< by spoke: the neighbour, see Cells::points
@@ -73,7 +73,7 @@ struct Moments {
 /// @pre the area is not zero
 Moments moments_of(std::span<const geometry::Vec2> corners);
 
-/// @brief Returns the signed length of the dual edge of a spoke within one triangle beside it: from the middle of the
+/// @brief Returns the signed length of the dual edge of a spoke within one triangle next to it: from the middle of the
 /// spoke to the circumcentre, positive towards the triangle. It is half of the spoke times the cotangent of the angle
 /// opposite to it.
 double half_dual_length(const Surroundings& around, std::size_t spoke, std::size_t triangle);

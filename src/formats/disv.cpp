@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The Voronoi cells as a grid of MODFLOW 6 ("Discretization by Vertices", DISV, in Langevin et al. 2017, USGS
-// Techniques and Methods 6-A55): one layer from 0 to 1, cells clockwise, with the site as the centre, since faces are
-// perpendicular to the lines between sites. Vertices at one place are merged. A second file has the number of the
-// region of each cell.
+// Techniques and Methods 6-A55): one layer from 0 to 1 with clockwise cells. The site is the centre of a cell, since
+// faces are perpendicular to the lines between sites. Vertices at one place are merged. A second file has the number of
+// the region of each cell.
 #include "dual/merged.hpp"
 #include "formats/cell_mesh.hpp"
 #include "formats/solver_names.hpp"
-
-#include "comm/agree.hpp"
 #include "trime/core/error.hpp"
 
 #include <fmt/format.h>

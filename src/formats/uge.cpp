@@ -51,7 +51,7 @@ void for_each_connection(const dual::Cells& cells, LocalIndex site, const Surrou
   for (std::size_t spoke = 0; spoke < around.arms.size(); ++spoke)
     if (cells.number_of(site) < cells.number_of(around.ends[spoke])) {
       const dual::CellFace face = dual::face_of(around, spoke);
-      if (!face.is_boundary && face.dual_length() > least_face * face.length)
+      if (face.dual_length() > least_face * face.length)
         use(spoke, face);
     }
 }

@@ -89,3 +89,64 @@ def flux_terms(file, conductivity):
         assert abs(side @ arm) <= 1e-12 * length, "a side is perpendicular to the line between its sites"
         terms[sites[0], sites[1]] += conductivity[int(file.region[k])] * np.hypot(*side) / length
     return terms
+
+
+class Disv:
+    """A grid of MODFLOW 6, read as strictly as MODFLOW does; numbers from 0."""
+
+    def __init__(self, path):
+        lines = path.read_text().splitlines()
+        self.zones = {int(words[2]): words[5] for words in (line.split(maxsplit=5) for line in lines)
+                      if words[:2] == ["#", "zone"]}
+        self.lines = iter([line.split() for line in lines if line.strip() and not line.startswith("#")])
+        assert self.block("OPTIONS") == []
+        sizes = {word: int(number) for word, number in self.block("DIMENSIONS")}
+        assert set(sizes) == {"NLAY", "NCPL", "NVERT"} and sizes["NLAY"] == 1
+        assert self.block("GRIDDATA") == [["TOP"], ["CONSTANT", "1.0"], ["BOTM", "LAYERED"], ["CONSTANT", "0.0"]]
+        rows = self.block("VERTICES")
+        assert [int(row[0]) for row in rows] == list(range(1, sizes["NVERT"] + 1))
+        self.vertices = np.array([[float(word) for word in row[1:]] for row in rows])
+        rows = self.block("CELL2D")
+        assert [int(row[0]) for row in rows] == list(range(1, sizes["NCPL"] + 1))
+        assert all(int(row[3]) == len(row) - 4 and len(row) - 4 <= 30 for row in rows)
+        assert next(self.lines, None) is None
+        self.places = np.array([[float(word) for word in row[1:3]] for row in rows])
+        self.cells = [np.array([int(word) for word in row[4:]]) - 1 for row in rows]
+
+    def block(self, name):
+        """The rows of a block."""
+        assert next(self.lines) == ["BEGIN", name]
+        rows = []
+        while (row := next(self.lines)) != ["END", name]:
+            rows.append(row)
+        return rows
+
+    def areas(self):
+        """Areas, which must be those of clockwise polygons without edges of length 0."""
+        areas = np.empty(len(self.cells))
+        for k, cell in enumerate(self.cells):
+            x, y = (self.vertices[cell] - self.places[k]).T
+            steps = np.hypot(np.roll(x, -1) - x, np.roll(y, -1) - y)
+            assert steps.min() > 1e-10 * steps.max(), (k, steps)
+            areas[k] = -0.5 * (x @ np.roll(y, -1) - y @ np.roll(x, -1))
+        return areas
+
+    def faces(self):
+        """Pairs of cells that share two vertices, as MODFLOW finds them."""
+        owners = defaultdict(list)
+        for k, cell in enumerate(self.cells):
+            for a, b in zip(cell.tolist(), np.roll(cell, -1).tolist()):
+                owners[min(a, b), max(a, b)].append(k)
+        assert max(map(len, owners.values())) == 2
+        return sorted(tuple(pair) for pair in owners.values() if len(pair) == 2)
+
+
+def read_uge(path):
+    """Cells (x, y, z, volume), ends of connections from 0, and their faces (x, y, z, area)."""
+    rows = [line.split() for line in path.read_text().splitlines()]
+    count = int(rows[0][1])
+    assert rows[0][0] == "CELLS" and rows[count + 1] == ["CONNECTIONS", str(len(rows) - count - 2)]
+    cells, faces = np.array(rows[1:count + 1], float), np.array(rows[count + 2:], float)
+    assert np.array_equal(cells[:, 0], np.arange(1, count + 1)) and cells.shape[1] == 5 and faces.shape[1] == 6
+    assert (cells[:, 3] == 0).all() and (faces[:, 4] == 0).all()
+    return cells[:, 1:], faces[:, :2].astype(int) - 1, faces[:, 2:]

@@ -14,7 +14,7 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import spsolve
 from vtk.util.numpy_support import vtk_to_numpy as to_numpy
 
-from cell_readers import CellFile, flux_terms
+from cell_readers import CellFile, Disv, flux_terms, read_uge
 from region_meshes import Mesh, areas_of, by_number, rectangle, region
 from trime_run import ROOT, WorkspaceCase, run
 
@@ -141,6 +141,47 @@ class Cells(WorkspaceCase):
         self.text_mesh(CRACKED, ranks=2)
         self.check_all()
 
+    def test_modflow(self):
+        """The same cells, clockwise, with merged vertices; a lattice has four points on one circle."""
+        (self.directory / "square.ini").write_text(HALVES)
+        for config, ranks in ((self.directory / "square.ini", 3), (ROOT / "configs" / "regions.ini", 2)):
+            self.mesh(config, "meshing.points=900", "output.overwrite=true", ranks=ranks,
+                      formats="vtkhdf xdmf voronoi disv")
+            file, grid = self.cells(), Disv(self.directory / "mesh.disv")
+            mesh = Mesh(self.directory / "mesh.h5")
+            np.testing.assert_array_equal(grid.places, mesh.points)
+            whole = np.bincount(file.site, file.area)
+            np.testing.assert_allclose(grid.areas(), whole, rtol=1e-9)
+            self.assertEqual(grid.zones, {number: name for name, number in file.regions.items()})
+            shares = np.zeros((len(whole), len(file.regions) + 1))
+            np.add.at(shares, (file.site, file.region), file.area)
+            zones = np.loadtxt(self.directory / "mesh.zones", dtype=int)
+            np.testing.assert_allclose(shares[np.arange(len(zones)), zones], shares.max(axis=1), rtol=1e-12)
+            faces = grid.faces()
+            edges = np.unique(np.sort(mesh.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)), axis=0)
+            self.assertLessEqual(set(faces), set(map(tuple, edges.tolist())))
+            self.assertGreater(len(faces), 0.9 * (len(edges) - len(mesh.facets)))
+
+    def test_pflotran(self):
+        (self.directory / "mesh.ini").write_text(HALVES)
+        self.mesh(self.directory / "mesh.ini", "meshing.points=900", formats="vtkhdf xdmf voronoi uge", ranks=2)
+        file, mesh = self.cells(), Mesh(self.directory / "mesh.h5")
+        cells, ends, faces = read_uge(self.directory / "mesh.uge")
+        np.testing.assert_array_equal(cells[:, :2], mesh.points)
+        np.testing.assert_allclose(cells[:, 3], np.bincount(file.site, file.area), rtol=1e-12)
+        wanted = {pair: term for pair, term in flux_terms(file, {1: 1.0, 2: 1.0}).items() if term > 1e-9}
+        self.assertEqual(set(map(tuple, ends.tolist())), set(wanted))
+        lengths = np.hypot(*(mesh.points[ends[:, 1]] - mesh.points[ends[:, 0]]).T)
+        terms = np.array([wanted[pair] for pair in map(tuple, ends.tolist())])
+        np.testing.assert_allclose(faces[:, 3], terms * lengths, rtol=1e-9, atol=1e-12)
+        np.testing.assert_allclose(faces[:, :2], mesh.points[ends].mean(axis=1), atol=1e-15)
+        area = 0.0
+        for path in self.directory.glob("mesh_*.ex"):
+            rows = path.read_text().splitlines()
+            self.assertEqual(rows[0], f"CONNECTIONS {len(rows) - 1}")
+            area += math.fsum(float(row.split()[4]) for row in rows[1:])
+        self.assertAlmostEqual(area, 4, delta=1e-12)
+
     def test_periodic(self):
         """Cells across the border have vertices of their own."""
         for config in ("torus", "torus_hole"):
@@ -151,9 +192,10 @@ class Cells(WorkspaceCase):
             file = self.cells(config)
             np.testing.assert_allclose(file.polygon_areas(), file.area, rtol=1e-9)
             with h5py.File(self.directory / f"{config}.h5") as mesh:
+                period = [mesh["/trime_mpi"].attrs[name] for name in ("period_x", "period_y")]
                 points, triangles = mesh["/Mesh/mesh/geometry"][:], mesh["/Mesh/mesh/topology"][:]
             arms = points[triangles] - points[triangles[:, :1]]
-            arms -= np.round(arms)
+            arms -= period * np.round(arms / period)
             total = 0.5 * math.fsum(arms[:, 1, 0] * arms[:, 2, 1] - arms[:, 1, 1] * arms[:, 2, 0])
             self.assertAlmostEqual(math.fsum(file.area), total, delta=1e-12)
             self.assertEqual(len(file.polygons), len(points))
