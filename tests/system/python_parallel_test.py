@@ -17,7 +17,10 @@ PLATE = """[shape]
 geometry = difference(plate, hole)
 [shape.plate]
 type = rectangle
-corners = 0 0 2 1
+x_min = 0
+x_max = 2
+y_min = 0
+y_max = 1
 [shape.hole]
 type = circle
 center = 1 0.5

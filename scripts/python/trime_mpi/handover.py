@@ -5,6 +5,8 @@ import typing
 
 import numpy as np
 
+TAG = 7411  # of the messages of this file
+
 
 @dataclasses.dataclass(frozen=True)
 class Dolfinx:
@@ -54,21 +56,51 @@ def distributed_tags(domain, dim, entities, values):
     return dolfinx.mesh.meshtags_from_entities(domain, dim, lists, found.astype(np.int32))
 
 
+def facet_neighbours(mesh):
+    """Returns pairs of an owned triangle and a rank that owns a triangle on the other side of one of its edges.
+    Collective.
+
+    This rank may not know both triangles of an edge whose ends are ghosts. The rank that owns an end of it does.
+    """
+    rank, owned = mesh.comm.rank, mesh.owned_points
+    owner = np.concatenate([np.full(owned, rank), mesh.ghost_owners])[mesh.triangles[:, 0]]  # that of the lowest vertex
+    edges = np.sort(np.concatenate([mesh.triangles[:, [k, (k + 1) % 3]] for k in range(3)]), axis=1)
+    order = np.lexsort(edges.T)
+    same = np.flatnonzero((edges[order[1:]] == edges[order[:-1]]).all(axis=1))
+    first, second = (order[same + side] % len(owner) for side in (0, 1))
+    found = np.stack([np.concatenate([first, second]), np.concatenate([second, first])], axis=1)
+    found = found[owner[found[:, 0]] != owner[found[:, 1]]]
+    rows = np.stack([mesh.triangle_ids[found[:, 0]], owner[found[:, 1]]], axis=1)
+    others = np.unique(mesh.ghost_owners)  # if this rank has ghosts of another, so has that one of this rank
+    sent = [mesh.comm.isend(rows[owner[found[:, 0]] == other], int(other), TAG) for other in others]
+    here = [rows[owner[found[:, 0]] == rank], *(mesh.comm.recv(None, int(other), TAG) for other in others)]
+    for request in sent:
+        request.wait()
+    rows = np.unique(np.concatenate(here), axis=0)
+    return np.searchsorted(mesh.triangle_ids[:mesh.owned_triangles], rows[:, 0]), rows[:, 1]
+
+
+def ranks_of_cells(mesh):
+    """Returns the ranks that get each owned triangle, as dolfinx lists them: its owner, then those with a neighbour of
+    it. Collective."""
+    import dolfinx
+    triangles, ranks = facet_neighbours(mesh)
+    cells = np.concatenate([np.arange(mesh.owned_triangles), triangles])
+    data = np.concatenate([np.full(mesh.owned_triangles, mesh.comm.rank), ranks]).astype(np.int32)
+    offsets = np.concatenate([[0], np.cumsum(np.bincount(cells, minlength=mesh.owned_triangles))]).astype(np.int32)
+    return dolfinx.cpp.graph.AdjacencyList_int32(data[np.argsort(cells, kind="stable")], offsets)
+
+
 def dolfinx_of(mesh, ghost_mode):
     """Returns the Dolfinx of a trime_mpi.parallel.Mesh. Collective."""
     import dolfinx
     import ufl
     triangles = global_triangles(mesh)
     mode = dolfinx.mesh.GhostMode.__members__[ghost_mode]
-    here = np.full(len(triangles), mesh.comm.rank, np.int32)
-
-    def keep(*_):  # dolfinx asks for the rank of each cell
-        return dolfinx.cpp.graph.AdjacencyList_int32(here)
-
-    partitioner = keep if ghost_mode == "none" else dolfinx.mesh.create_cell_partitioner()
+    ranks = ranks_of_cells(mesh)  # dolfinx finds shared vertices by the cells that several ranks get
     kind = ufl.Mesh(ufl.VectorElement("Lagrange", ufl.Cell("triangle", geometric_dimension=2), 1))
     domain = dolfinx.mesh.create_mesh(mesh.comm, triangles, np.array(mesh.points[:mesh.owned_points]), kind, mode,
-                                      partitioner)
+                                      lambda *_: ranks)
     regions = mesh.regions[:mesh.owned_triangles] if len(mesh.regions) else np.ones(len(triangles))
     edges, tags, numbers = named_edges(mesh)
     return Dolfinx(domain, distributed_tags(domain, 2, triangles, regions.astype(np.int32)),

@@ -31,6 +31,8 @@ NAME = "trime_mpi._parallel"
 def find_module():
     """Returns the compiled module: the one in the folder of this file, or the one of a build in the source tree.
     TRIME_PYTHON_MODULE names a directory that comes first."""
+    if NAME in sys.modules:  # a program that embeds Python may bring it
+        return sys.modules[NAME]
     own = pathlib.Path(__file__).resolve().parent
     builds = [own.parents[2] / "build" / preset / "python" for preset in ("release", "ci")]
     for directory in (os.environ.get("TRIME_PYTHON_MODULE"), own, *builds):
@@ -216,7 +218,7 @@ class Mesh:
     def to_dolfinx(self, ghost_mode="none") -> Dolfinx:
         """Returns the mesh for dolfinx, with tags, see trime_mpi.handover.Dolfinx. Collective.
 
-        ghost_mode "none" keeps the parts of the ranks. "shared_facet", which integrals over inner facets (dS) need,
-        lets dolfinx share the cells among the ranks again.
+        Each rank keeps its triangles. ghost_mode is that of dolfinx: integrals over inner facets (dS) need
+        "shared_facet".
         """
         return dolfinx_of(self, ghost_mode)
