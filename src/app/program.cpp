@@ -366,7 +366,7 @@ ExitCode MeshRun::run() {
                           {static_cast<int>(exit_code(result)), files.paths}, job_.comm);
   keeper_.remove_all();
   const std::vector<std::int64_t> edges =
-      edges_of_parts(result.mesh, boundary().part_names.size() + input_.domain().curves().names.size(), job_.comm);
+      edges_of_parts(result.mesh, boundary().part_names.size(), input_.domain().curves().names.size(), job_.comm);
   if (job_.options.log_level <= LogLevel::info)
     job_.log.info("{}", run_report(result, sizes, measured, files, input_.normalized));
   else

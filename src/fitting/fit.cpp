@@ -11,12 +11,22 @@
 #include <utility>
 
 namespace trime::fitting {
+namespace {
+
+JoinedLines joined_in(const FittedSize& fitted) {
+  return fitted.curves.inner ? fitted.curves.inner->joined : JoinedLines{};
+}
+
+} // namespace
 
 std::variant<LatticeFit, TooFewPoints> Fit::find_lattice() {
   std::variant<LatticeFit, TooFewPoints> found = fit_lattice(context_);
   of_lattice_.reset();
-  if (const LatticeFit* fit = std::get_if<LatticeFit>(&found); fit && fit->fitted.curves.found)
-    of_lattice_ = fit->fitted;
+  if (const LatticeFit* fit = std::get_if<LatticeFit>(&found)) {
+    joined_ = joined_in(fit->fitted);
+    if (fit->fitted.curves.found)
+      of_lattice_ = fit->fitted;
+  }
   return found;
 }
 
@@ -26,6 +36,7 @@ std::variant<StageFit, TooFewPoints> Fit::find_density(double points, double coa
     return std::move(*few);
   SizeTrial& trial = std::get<SizeTrial>(found);
   fitted_ = std::move(trial.fitted);
+  joined_ = joined_in(fitted_);
   fitted_.steep.sizes.reset(); // the factor stays, so its samples would only take memory during the sweeps
   return std::move(trial.fit);
 }

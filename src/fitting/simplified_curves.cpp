@@ -7,7 +7,6 @@
 #include "core/thread_loop.hpp"
 #include "fitting/rules.hpp"
 #include "generalise/generalised_bytes.hpp"
-#include "generalise/thin_inner_curves.hpp"
 #include "sizing/lowered_size.hpp"
 #include "trime/geometry/lattice.hpp"
 
@@ -142,11 +141,11 @@ const geometry::InnerCurves& inner_curves(const LayoutContext& context, const si
   if (given.empty() || !generalises(context) || boundary.periods.any())
     return given;
   if (!curves.inner || curves.inner_factor != curves.factor) {
-    curves.inner = std::make_shared<geometry::InnerCurves>(generalise::thin_inner_curves(
+    curves.inner = std::make_shared<generalise::ThinnedCurves>(generalise::thin_inner_curves(
         given, boundary, generalised_size(context, asked), context.lattice, context.fixed.on_curves()));
     curves.inner_factor = curves.factor;
   }
-  return *curves.inner;
+  return curves.inner->curves;
 }
 
 bool one_rank_simplifies(const LayoutContext& context) {

@@ -6,6 +6,7 @@
 #include "boundary/boundary_sizes.hpp"
 #include "fitting/layout_context.hpp"
 #include "generalise/generalise.hpp"
+#include "generalise/thin_inner_curves.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/geometry/piece_tree.hpp"
 #include "trime/sizing/size_field.hpp"
@@ -16,12 +17,12 @@ namespace trime::fitting {
 
 /// The boundary at the resolution of a size, with data that belong to it.
 struct CurvesAtSize {
-  double factor = 0;                                    ///< factor of the relative size
-  std::shared_ptr<const generalise::Generalised> found; ///< null if nothing was simplified
-  std::shared_ptr<const boundary::SizeSamples> samples; ///< samples of the relative size on it; made when needed
-  std::shared_ptr<const geometry::InnerCurves> inner;   ///< the curves inside, simplified; null if they are not
-  double inner_factor = 0;                              ///< the value of `factor` for which `inner` was made
-  bool held = false;                                    ///< if true, the curves are also used at other factors
+  double factor = 0;                                      ///< factor of the relative size
+  std::shared_ptr<const generalise::Generalised> found;   ///< null if nothing was simplified
+  std::shared_ptr<const boundary::SizeSamples> samples;   ///< samples of the relative size on it; made when needed
+  std::shared_ptr<const generalise::ThinnedCurves> inner; ///< the curves inside, simplified; null if they are not
+  double inner_factor = 0;                                ///< the value of `factor` for which `inner` was made
+  bool held = false;                                      ///< if true, the curves are also used at other factors
 
   // Only on ranks that simplify, see share_simplified_curves.
   double thinned_factor = 0; ///< factor at which `thinned` was made

@@ -5,6 +5,7 @@
 #include "generalise/cut_wedges.hpp"
 #include "generalise/rules.hpp"
 #include "generalise/smooth_arcs.hpp"
+#include "generalise/snap_arcs.hpp"
 #include "generalise/vertex_tree.hpp"
 #include "geometry/inner_wedges.hpp"
 #include "trime/core/types.hpp"
@@ -183,7 +184,7 @@ void note_loss(const InnerArc& given, InnerArc& arc) {
     return;
   const Vec2 place = given.pieces.front().start;
   arc.is_simplified = true;
-  arc.lost_area = area_beside(given, place) - area_beside(arc, place);
+  arc.lost_area += area_beside(given, place) - area_beside(arc, place);
 }
 
 /// Removes vertices of all arcs, and joins close nodes. @param given the arcs before any simplification
@@ -230,15 +231,16 @@ geometry::InnerCurves thin_arcs(const geometry::InnerCurves& curves, const geome
 
 } // namespace
 
-geometry::InnerCurves thin_inner_curves(const geometry::InnerCurves& curves, const geometry::Boundary& boundary,
-                                        const sizing::SizeField& size, const geometry::Lattice& lattice,
-                                        std::span<const Vec2> corners) {
+ThinnedCurves thin_inner_curves(const geometry::InnerCurves& curves, const geometry::Boundary& boundary,
+                                const sizing::SizeField& size, const geometry::Lattice& lattice,
+                                std::span<const Vec2> corners) {
   const FlowRequest request{size, boundary.bounding_box(), GeneraliseRules::flow_reach, corners};
-  const geometry::InnerCurves smooth{smooth_arcs(curves.arcs, boundary, request, lattice), curves.names};
+  const auto [given, joined] = snapped_arcs(curves.arcs, boundary, size, lattice);
+  const geometry::InnerCurves smooth{smooth_arcs(given, boundary, request, lattice), curves.names};
   const ArcRequest all{size, lattice, corners};
-  geometry::InnerCurves thinned = thin_arcs(smooth, boundary, all, curves.arcs);
-  cut_wedges(thinned, geometry::narrow_wedges(curves.arcs, boundary), boundary, all);
-  geometry::set_wedges(thinned.arcs, boundary);
+  ThinnedCurves thinned{thin_arcs(smooth, boundary, all, given), joined};
+  cut_wedges(thinned.curves, geometry::narrow_wedges(given, boundary), boundary, all);
+  geometry::set_wedges(thinned.curves.arcs, boundary);
   return thinned;
 }
 

@@ -2,6 +2,7 @@
 // Simplifies the curves inside a shape to the resolution of a mesh.
 #pragma once
 
+#include "generalise/snap_arcs.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/geometry/lattice.hpp"
 #include "trime/geometry/vec2.hpp"
@@ -11,12 +12,19 @@
 
 namespace trime::generalise {
 
+/// Curves inside a shape at the resolution of a mesh.
+struct ThinnedCurves {
+  geometry::InnerCurves curves;
+  JoinedLines joined; ///< curves that were joined with interfaces
+};
+
 /// @brief Returns the curves without vertices whose removal changes little. The vertex of an arc whose triangle with
 /// its neighbours has the smallest area goes first (Visvalingam and Whyatt 1993). This ends when the smallest area is
 /// GeneraliseRules::vertex_area h^2. A vertex stays if it is farther than GeneraliseRules::vertex_move h from the edge
 /// that would replace it.
 ///
-/// Interfaces between regions are smoothed before, see smooth_arcs(), and narrow wedges are cut afterwards, see
+/// Curves are joined with the interfaces that they follow before, see snapped_arcs(). Then interfaces between regions
+/// are smoothed, see smooth_arcs(), and narrow wedges are cut afterwards, see
 /// cut_wedges(). InnerArc::lost_area says how much area an interface takes from its left side.
 ///
 /// Nodes, corners that the user asked for, and all other curves stay on their side: a vertex stays if its triangle
@@ -25,8 +33,8 @@ namespace trime::generalise {
 /// @param boundary the boundary that is meshed
 /// @param corners vertices that stay, in lexicographic order
 /// @throws GeometryError if a size is not positive and finite
-geometry::InnerCurves thin_inner_curves(const geometry::InnerCurves& curves, const geometry::Boundary& boundary,
-                                        const sizing::SizeField& size, const geometry::Lattice& lattice,
-                                        std::span<const geometry::Vec2> corners);
+ThinnedCurves thin_inner_curves(const geometry::InnerCurves& curves, const geometry::Boundary& boundary,
+                                const sizing::SizeField& size, const geometry::Lattice& lattice,
+                                std::span<const geometry::Vec2> corners);
 
 } // namespace trime::generalise
