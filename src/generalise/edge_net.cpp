@@ -101,7 +101,7 @@ void EdgeNet::divide(LocalIndex e, LocalIndex vertex, double distance) {
   }
 }
 
-/// The edge that continues this one beyond one of its ends in the same arc; -1 if there is none.
+/// The edge that continues this one beyond one of its ends in the same arc; -1 if no edge does.
 LocalIndex EdgeNet::beside(LocalIndex e, bool at_end) const {
   const Edge& one = edge(e);
   const LocalIndex v = at_end ? one.b : one.a;

@@ -28,9 +28,9 @@ public:
     std::array<LocalIndex, 2> parts{0, 0}; ///< what it was divided into; both 0 if it was not divided
     bool alive = true;
 
-    /// Is it an interface without a curve?
+    /// Returns whether this is an interface without a curve.
     bool is_interface() const { return piece.part < 0 && left != right; }
-    /// Is it a curve inside a region?
+    /// Returns whether this is a curve inside a region.
     bool is_curve() const { return piece.part >= 0 && left == right; }
   };
 
@@ -42,7 +42,7 @@ public:
   const Edge& edge(LocalIndex e) const { return edges_[at(e)]; }
   /// Returns the living edges at a vertex, in no special order.
   const std::vector<LocalIndex>& around(LocalIndex vertex) const { return around_[at(vertex)]; }
-  /// Returns the living edge between two vertices; -1 if there is none.
+  /// Returns the living edge between two vertices; -1 if no edge leads there.
   LocalIndex between(LocalIndex a, LocalIndex b) const;
   /// Returns whether a curve and an interface with the same ends may become one edge: one of them is a curve inside one
   /// of the two regions of the other one.
