@@ -409,7 +409,7 @@ ExitCode MeshRun::run() {
                           {static_cast<int>(code), files.paths}, job_.comm);
   keeper_.remove_all();
   const std::vector<std::int64_t> edges =
-      edges_of_parts(result.mesh, boundary().part_names.size() + input_.domain().curves().names.size(), job_.comm);
+      edges_of_parts(result.mesh, boundary().part_names.size(), input_.domain().curves().names.size(), job_.comm);
   print_results({provenance, result, sizes, measured, files, edges});
   return code;
 }

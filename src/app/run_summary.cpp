@@ -97,7 +97,7 @@ std::string boundary_text(const boundary::FeatureReport& report) {
   return text;
 }
 
-/// @param edges by part, then by curve: those on both sides if it is split
+/// @param edges by part, then by curve
 std::string names_text(const record::Origin& origin, const std::vector<std::int64_t>& edges) {
   std::vector<std::string> names = origin.part_names;
   names.insert(names.end(), origin.curve_names.begin(), origin.curve_names.end());
@@ -170,11 +170,13 @@ std::string files_text(const io::WrittenFiles& files) {
 
 } // namespace
 
-std::vector<std::int64_t> edges_of_parts(const mesh::DistributedMesh& mesh, std::size_t parts,
+std::vector<std::int64_t> edges_of_parts(const mesh::DistributedMesh& mesh, std::size_t parts, std::size_t curves,
                                          const comm::Communicator& comm) {
-  std::vector<std::int64_t> edges(parts);
+  std::vector<std::int64_t> edges(parts + curves);
   for (const std::int32_t part : mesh.facet_parts)
     ++edges.at(static_cast<std::size_t>(part));
+  for (const std::int32_t curve : mesh.curve_numbers)
+    ++edges.at(parts + static_cast<std::size_t>(curve));
   comm.sum(edges);
   return edges;
 }

@@ -21,14 +21,15 @@ struct RunFacts {
   const Measurements& measured;
   const io::WrittenFiles& files; ///< the files of the mesh; empty if the run writes no mesh
   const std::vector<std::int64_t>&
-      part_edges; ///< number of boundary edges of each part of the shape and each curve, see edges_of_parts
+      part_edges; ///< number of edges of each part of the boundary and of each curve, see edges_of_parts
 };
 
-/// @brief Counts the boundary edges of the whole mesh for each part of the shape, and then for each curve: those on
-/// both sides of a split curve.
-/// @param parts number of parts and curves
+/// @brief Counts the boundary edges of the whole mesh for each part of the shape, and then the edges on each curve:
+/// those on both sides of a split curve.
+/// @param parts number of parts
+/// @param curves number of curves
 /// @note Collective.
-std::vector<std::int64_t> edges_of_parts(const mesh::DistributedMesh& mesh, std::size_t parts,
+std::vector<std::int64_t> edges_of_parts(const mesh::DistributedMesh& mesh, std::size_t parts, std::size_t curves,
                                          const comm::Communicator& comm);
 
 /// Returns the summary. Each line begins with a word that names its subject. There is no line end after the last line.

@@ -69,7 +69,7 @@ public:
     if (objects_.size() == depth && objects_[0].key == "crs" && objects_[1].key == "properties" &&
         objects_[2].key == "name")
       contour_.crs = text;
-    take_attribute([&] { return text; });
+    take_attribute([&] { return std::string(trimmed(text)); });
     note_name([&] { return text; });
     return other_value();
   }
@@ -200,7 +200,8 @@ private:
                        !objects_.back().is_property && is_feature_at(depth - 1); // of the feature, next to `properties`
     if (!is_attribute() && !is_id)
       return;
-    if (const int rank = telling_rank(objects_.back().key); rank > name_rank_) {
+    const std::string& key = objects_.back().key;
+    if (const int rank = key == attribute_ ? chosen_rank : telling_rank(key); rank > name_rank_) {
       feature_.name = text();
       name_rank_ = rank;
     }

@@ -78,14 +78,16 @@ TooFewPoints too_few_points(const LayoutContext& context, const Fewest& fewest) 
   if (context.options.max_size || context.fixed.inside().size() > 0)
     return too_few_points(context, fewest.points, fewest.counted);
   const geometry::Vec2 place = 0.5 * (fewest.shortest.a + fewest.shortest.b);
+  const double least = std::isfinite(fewest.points) ? fewest.points : 0;
   return {fmt::format(
-      "points = {} are too few for this shape: {} needs {}{:.0f}. Each corner takes a point, and so "
-      "does each place where the boundary comes near itself; the shortest {}edge, {:.3g} long, is at {}; use "
-      "more points, or simplify the shape there",
-      *context.options.points,
-      fewest.inside ? "its boundary with the curves and interfaces inside" : "its boundary alone",
-      fewest.counted ? "" : "more than ", fewest.points, fewest.inside ? "" : "boundary ",
-      geometry::length(fewest.shortest.b - fewest.shortest.a), Place(place, 6))};
+              "points = {} are too few for this shape: {} needs {}{:.0f}. Each corner takes a point, and so "
+              "does each place where the boundary comes near itself; the shortest {}edge, {:.3g} long, is at {}; use "
+              "more points, or simplify the shape there",
+              *context.options.points,
+              fewest.inside ? "its boundary with the curves and interfaces inside" : "its boundary alone",
+              fewest.counted ? "" : "more than ", fewest.points, fewest.inside ? "" : "boundary ",
+              geometry::length(fewest.shortest.b - fewest.shortest.a), Place(place, 6)),
+          least};
 }
 
 std::optional<TooFewPoints> too_small_size(const LayoutContext& context, std::span<const sizing::SizeLimit> places) {

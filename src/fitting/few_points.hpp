@@ -17,6 +17,7 @@ namespace trime::fitting {
 /// Says that the shape needs more points than were asked for, at any size. All ranks hold the same message.
 struct TooFewPoints {
   std::string reason; ///< a whole message for the user
+  double fewest = 0;  ///< the mesh would have at least about this number of points; 0 if that is not known
 };
 
 /// The boundary with the fewest points among all trials, and the place where its sites are closest together.

@@ -11,12 +11,14 @@
 #include <utility>
 
 namespace trime::fitting {
-
 std::variant<LatticeFit, TooFewPoints> Fit::find_lattice() {
   std::variant<LatticeFit, TooFewPoints> found = fit_lattice(context_);
   of_lattice_.reset();
-  if (const LatticeFit* fit = std::get_if<LatticeFit>(&found); fit && fit->fitted.curves.found)
-    of_lattice_ = fit->fitted;
+  if (const LatticeFit* fit = std::get_if<LatticeFit>(&found)) {
+    joined_ = fit->fitted.curves.joined;
+    if (fit->fitted.curves.found)
+      of_lattice_ = fit->fitted;
+  }
   return found;
 }
 
@@ -26,6 +28,7 @@ std::variant<StageFit, TooFewPoints> Fit::find_density(double points, double coa
     return std::move(*few);
   SizeTrial& trial = std::get<SizeTrial>(found);
   fitted_ = std::move(trial.fitted);
+  joined_ = fitted_.curves.joined;
   fitted_.steep.sizes.reset(); // the factor stays, so its samples would only take memory during the sweeps
   return std::move(trial.fit);
 }

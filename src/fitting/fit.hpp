@@ -15,6 +15,8 @@
 
 namespace trime::fitting {
 
+using generalise::JoinedLines;
+
 /// @brief Owns the factor of the size field, the limits of the size, the curves at that size, and samples of the size.
 /// A search finds these data; then stages are laid out with that size or a multiple of it. Stages share the curves,
 /// which do not change. Methods are collective unless their comment says that they are local.
@@ -71,6 +73,8 @@ public:
   const SteepPlaces& steep() const { return fitted_.steep; }
   /// Returns the places where the boundary needs smaller triangles than the size field asks for. Local.
   std::span<const sizing::SizeLimit> limits() const { return fitted_.limits; }
+  /// Returns which curves were joined with interfaces in the last search. Local.
+  const JoinedLines& joined_lines() const { return joined_; }
 
 private:
   std::variant<SizeTrial, TooFewPoints> long_enough(double points, double coarsening);
@@ -78,7 +82,8 @@ private:
   LayoutContext context_;
   FittedSize fitted_;
   std::optional<FittedSize> of_lattice_; // result of find_lattice, if it simplified curves
-  int raisings_ = 0;                     // how often the size was raised
+  JoinedLines joined_;
+  int raisings_ = 0; // how often the size was raised
 };
 
 } // namespace trime::fitting

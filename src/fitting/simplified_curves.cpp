@@ -7,7 +7,6 @@
 #include "core/thread_loop.hpp"
 #include "fitting/rules.hpp"
 #include "generalise/generalised_bytes.hpp"
-#include "generalise/thin_inner_curves.hpp"
 #include "sizing/lowered_size.hpp"
 #include "trime/geometry/lattice.hpp"
 
@@ -160,6 +159,7 @@ const geometry::InnerCurves& inner_curves(const LayoutContext& context, const si
     generalise::Partition made =
         generalise::simplify_partition(given, boundary, {size, context.lattice, kept}, context.domain.regions().pairs);
     curves.inner = std::make_shared<geometry::InnerCurves>(std::move(made.curves));
+    curves.joined = made.joined;
     curves.relabelled = made.is_relabelled ? std::make_shared<geometry::Boundary>(std::move(made.boundary)) : nullptr;
     curves.inner_factor = curves.factor;
     curves.samples = nullptr;

@@ -6,6 +6,7 @@
 #include "boundary/boundary_sizes.hpp"
 #include "fitting/layout_context.hpp"
 #include "generalise/generalise.hpp"
+#include "generalise/thin_inner_curves.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/geometry/piece_tree.hpp"
 #include "trime/sizing/size_field.hpp"
@@ -22,6 +23,7 @@ struct CurvesAtSize {
   std::shared_ptr<const geometry::InnerCurves> inner;   ///< the curves inside, simplified; null if they are not
   std::shared_ptr<const geometry::Boundary> relabelled; ///< the boundary with other regions along it, where `inner` has
                                                         ///< given parts of regions away; null if it is as before
+  generalise::JoinedLines joined;                       ///< curves that were joined with interfaces in `inner`
   double inner_factor = 0;                              ///< the value of `factor` for which `inner` was made
   bool held = false;                                    ///< if true, the curves are also used at other factors
 

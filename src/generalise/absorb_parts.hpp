@@ -3,6 +3,7 @@
 #pragma once
 
 #include "generalise/cut_wedges.hpp"
+#include "generalise/snap_arcs.hpp"
 #include "trime/geometry/boundary.hpp"
 
 #include <array>
@@ -23,6 +24,7 @@ struct Partition {
   geometry::InnerCurves curves;
   geometry::Boundary boundary;
   bool is_relabelled = false; ///< whether regions or corners along the boundary may differ from the given ones
+  JoinedLines joined{};       ///< curves that were joined with interfaces
 };
 
 /// @brief Gives small parts of regions to the region with which they share the longest border. Faces are small if their

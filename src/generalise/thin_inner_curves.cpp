@@ -6,6 +6,7 @@
 #include "generalise/cut_wedges.hpp"
 #include "generalise/rules.hpp"
 #include "generalise/smooth_arcs.hpp"
+#include "generalise/snap_arcs.hpp"
 #include "generalise/vertex_tree.hpp"
 #include "geometry/inner_wedges.hpp"
 #include "trime/core/types.hpp"
@@ -243,8 +244,11 @@ constexpr int most_rounds = 6;
 
 Partition simplify_partition(const geometry::InnerCurves& curves, const geometry::Boundary& boundary,
                              const ArcRequest& request, std::span<const std::array<int, 2>> pairs) {
-  std::optional<Partition> large = absorb_parts(curves, boundary, request, pairs, SmallParts::faces);
-  Partition made = large ? std::move(*large) : Partition{curves, boundary, false};
+  geometry::InnerCurves joined = curves;
+  SnappedArcs snapped = snapped_arcs(curves.arcs, boundary, request.size, request.lattice);
+  joined.arcs = std::move(snapped.arcs);
+  std::optional<Partition> large = absorb_parts(joined, boundary, request, pairs, SmallParts::faces);
+  Partition made = large ? std::move(*large) : Partition{std::move(joined), boundary, false};
   made.curves.on_boundary.clear();
   made.curves.outside.clear();
   std::vector<geometry::NarrowWedge> wedges = geometry::narrow_wedges(made.curves.arcs, made.boundary);
@@ -275,6 +279,7 @@ Partition simplify_partition(const geometry::InnerCurves& curves, const geometry
   }
   cut_wedges(made.curves, wedges, made.boundary, request);
   geometry::set_wedges(made.curves.arcs, made.boundary);
+  made.joined = snapped.joined;
   return made;
 }
 

@@ -2,6 +2,7 @@
 #include "start/point_scheme.hpp"
 
 #include "fitting/expected_points.hpp"
+#include "fitting/points_of_length.hpp"
 #include "fitting/rules.hpp"
 #include "placing/work_share.hpp"
 #include "start/refinement.hpp"
@@ -49,6 +50,13 @@ constexpr double most_crowded = 1.1;
 // [stages] Divisions where the size is limited to the growth that triangles can follow: the sizes of the coarser stage
 // grow by twice as much.
 constexpr int divisions_of_steep_sizes = 1;
+
+// [1] Where there are too few points, the program tries a number that is larger by this factor each time, until one is
+// large enough; then it tries the geometric mean of the last two.
+constexpr double enough_step = 2;
+
+// [trials] Largest number of such trials.
+constexpr int enough_trials = 8;
 
 using sites::Stage;
 using sites::StageView;
@@ -113,7 +121,7 @@ void PointScheme::choose_divisions() {
   last_stage_ = divisions_for(expected_points());
 }
 
-Stage PointScheme::first() {
+PointScheme::First PointScheme::first_or_few() {
   First made = first_of_scheme();
   if (std::holds_alternative<fitting::TooFewPoints>(made) && !given_.options.features.keep_all) {
     fit_.cut_thin_components();
@@ -121,8 +129,42 @@ Stage PointScheme::first() {
     choose();
     made = first_of_scheme();
   }
-  if (const fitting::TooFewPoints* few = std::get_if<fitting::TooFewPoints>(&made)) // on all ranks together
-    throw ConfigError(few->reason);
+  return made;
+}
+
+/// Returns a number of points at which the search succeeds: at most 1.5 times a number at which it does not succeed;
+/// 0 if none of a few numbers is large enough. Collective. @param fewest as far as known
+double PointScheme::enough_points(double fewest) const {
+  fitting::FitOptions options = given_.options;
+  const auto suffice = [&](double points) {
+    options.points = static_cast<GlobalId>(points);
+    const fitting::LayoutContext larger{given_.comm, given_.domain, given_.relative_size, options,
+                                        given_.log,  given_.timers, given_.fixed};
+    try {
+      return std::holds_alternative<Stage>(PointScheme(larger, options_).first_or_few());
+    } catch (const GeometryError&) { // no boundary at this size: all ranks throw it together
+      return false;
+    }
+  };
+  double few = std::fmax(fewest, static_cast<double>(*options.points)), enough = few;
+  for (int trial = 0; trial < enough_trials; ++trial) {
+    enough = fitting::rounded_up(enough_step * few);
+    if (suffice(enough))
+      break;
+    if (trial + 1 == enough_trials)
+      return 0;
+    few = enough;
+  }
+  const double between = fitting::rounded_up(std::sqrt(few * enough));
+  return between < enough && suffice(between) ? between : enough;
+}
+
+Stage PointScheme::first() {
+  First made = first_or_few();
+  if (const fitting::TooFewPoints* few = std::get_if<fitting::TooFewPoints>(&made)) { // on all ranks together
+    const double enough = few->fewest > 0 && !given_.domain.curves().empty() ? enough_points(few->fewest) : 0;
+    throw ConfigError(enough > 0 ? fmt::format("{}; {:.0f} points are enough", few->reason, enough) : few->reason);
+  }
   Stage& stage = std::get<Stage>(made);
   if (const std::optional<fitting::TooFewPoints> thin =
           fitting::too_thin(given_, is_last() || inserts() ? stage : laid_last_))

@@ -69,6 +69,8 @@ public:
   const fitting::SteepPlaces& steep() const { return fit_.steep(); }
   /// Returns the factor of a size that varies. @pre first() was called
   double factor() const { return fit_.factor(); }
+  /// Returns which curves were joined with interfaces. @pre first() was called
+  const fitting::JoinedLines& joined_lines() const { return fit_.joined_lines(); }
   /// Returns in one line which scheme was chosen and why.
   const std::string& reason() const { return reason_; }
   /// Returns why the scheme made fewer points than requested; empty if it made enough.
@@ -79,6 +81,8 @@ private:
 
   /// The first stage, or an error value if there are too few points for it.
   using First = std::variant<sites::Stage, fitting::TooFewPoints>;
+  First first_or_few();
+  double enough_points(double fewest) const;
 
   void choose();
   void choose_divisions();

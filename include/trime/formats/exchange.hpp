@@ -20,9 +20,9 @@ namespace trime::formats {
 class ExchangeMesh;
 struct FilePlan;
 
-/// The output formats. vtkhdf and xdmf describe the arrays of NAME.h5 for other readers, text has the files of TriMe++,
-/// gmsh is MSH 4.1, gmsh2 MSH 2.2, sms is .2dm, schism is hgrid.gr3, telemac is Selafin with its boundary conditions.
-/// voronoi, disv (MODFLOW 6) and uge (PFLOTRAN) have the Voronoi cells of the points instead of the triangles.
+/// The output formats. vtkhdf and xdmf describe the arrays of NAME.h5 for other readers, and text has the files of
+/// TriMe++. gmsh is MSH 4.1, gmsh2 MSH 2.2, and sms .2dm. schism is hgrid.gr3, and telemac is Selafin with its boundary
+/// conditions. voronoi, disv (MODFLOW 6) and uge (PFLOTRAN) have the Voronoi cells of the points, not the triangles.
 enum class Format {
   vtkhdf,
   xdmf,

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Tests that curves become one line with the interfaces that they follow.
+#include "generalise/snap_arcs.hpp"
+
+#include "trime/geometry/boundary.hpp"
+#include "trime/geometry/lattice.hpp"
+#include "trime/sizing/size_field.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace trime::generalise {
+namespace {
+
+using geometry::InnerArc;
+using geometry::Vec2;
+
+class SnapArcs : public ::testing::Test {
+protected:
+  Vec2 at(double x, double y) const { return lattice_.snap({x, y}); }
+  static std::vector<geometry::Piece> pieces(const std::vector<Vec2>& path, int part) {
+    std::vector<geometry::Piece> made;
+    for (std::size_t k = 1; k < path.size(); ++k) {
+      geometry::Piece& piece = made.emplace_back();
+      piece.start = path[k - 1];
+      piece.end = path[k];
+      piece.part = part;
+    }
+    return made;
+  }
+  static InnerArc arc(const std::vector<Vec2>& path, int part, int left, int right) {
+    InnerArc made;
+    made.pieces = pieces(path, part);
+    made.left = left;
+    made.right = right;
+    return made;
+  }
+  InnerArc interface() const {
+    return arc({at(0, 0.5), at(0.21, 0.5005), at(0.42, 0.4995), at(0.6, 0.5), at(0.83, 0.5003), at(1, 0.5)}, -1, 0, 1);
+  }
+  SnappedArcs snapped(const std::vector<InnerArc>& arcs) const {
+    geometry::Boundary square;
+    square.loops.emplace_back().pieces = pieces({{0, 0}, {1, 0}, {1, 0.5}, {1, 1}, {0, 1}, at(0, 0.5), {0, 0}}, 0);
+    return snapped_arcs(arcs, square, sizing::UniformSize(0.024), lattice_);
+  }
+
+private:
+  const geometry::Lattice lattice_ = geometry::Frame(geometry::Box{{0, 0}, {1, 1}}).lattice();
+};
+
+TEST_F(SnapArcs, LinesThatFollowEachOtherBecomeOne) {
+  const std::vector<Vec2> fault{at(0.15, 0.502), at(0.3, 0.5018), at(0.5, 0.5022), at(0.7, 0.5016), at(0.9, 0.502)};
+  const SnappedArcs result = snapped({arc(fault, 0, 0, 0), interface()});
+  EXPECT_EQ(result.joined.vertices, 9); // 5 of the fault, 4 of the interface
+  EXPECT_LT(result.joined.farthest, 0.2 * 0.024);
+  ASSERT_EQ(result.arcs.size(), 3U);
+  const InnerArc& along = result.arcs[0];
+  EXPECT_EQ(along.pieces.size(), 8U);
+  EXPECT_EQ(along.pieces.front().start, fault.front());
+  EXPECT_EQ(along.pieces.back().end, fault.back());
+  EXPECT_EQ(std::pair(along.left, along.right), std::pair(0, 1));
+  EXPECT_GT(along.lost_area, 0); // the upper region lies on the left, and the interface has gone up
+}
+
+TEST_F(SnapArcs, LinesFartherApartStay) {
+  const std::vector<Vec2> fault{at(0.15, 0.508), at(0.5, 0.508), at(0.9, 0.508)};
+  const SnappedArcs result = snapped({arc(fault, 0, 0, 0), interface()});
+  EXPECT_EQ(result.joined.vertices, 0);
+  EXPECT_EQ(result.arcs.size(), 2U);
+}
+
+TEST_F(SnapArcs, ACurveLeavesItsInterfaceAtAVertex) {
+  const Vec2 crossing = at(0.3, 0.5002), last = at(0.7, 0.499);
+  const SnappedArcs result =
+      snapped({arc({at(0.15, 0.502), crossing}, 0, 0, 0), arc({crossing, at(0.5, 0.498), last, at(0.8, 0.47)}, 0, 1, 1),
+               arc({at(0, 0.5), at(0.21, 0.5005), crossing}, -1, 0, 1),
+               arc({crossing, at(0.42, 0.4995), at(0.6, 0.5), at(0.83, 0.5003), at(1, 0.5)}, -1, 0, 1)});
+  ASSERT_EQ(result.arcs.size(), 4U);
+  EXPECT_EQ(result.arcs[0].pieces.back().end, last); // through the crossing, which is no node any more
+  EXPECT_EQ(std::pair(result.arcs[0].left, result.arcs[0].right), std::pair(0, 1));
+  EXPECT_EQ(std::pair(result.arcs[1].left, result.arcs[1].right), std::pair(1, 1));
+}
+
+} // namespace
+} // namespace trime::generalise
