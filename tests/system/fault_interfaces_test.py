@@ -76,7 +76,8 @@ class FaultInterfaces(WorkspaceCase):
         return math.fsum(np.hypot(*(self.points[edges[:, 1]] - self.points[edges[:, 0]]).T))
 
     def has(self, place):
-        return bool(np.any(np.all(self.points == np.array(place), axis=1)))
+        """Returns whether a point lies at the place. Places are rounded to the lattice of the container."""
+        return bool(np.abs(self.points - np.array(place)).max(axis=1).min() < 1e-9)
 
     def low(self, top):
         return [(0.0, 0.0), (1.0, 0.0)] + top[::-1]
@@ -123,7 +124,7 @@ class FaultInterfaces(WorkspaceCase):
 
     def test_through_a_junction(self):
         """Along two interfaces, through the place where three regions meet."""
-        regions = "[shape.left]\ntype = rectangle\nx_max = 0.5\ny_min = 0.49\n[region.left]\ngeometry = left\n"
+        regions = "[shape.left]\ntype = rectangle\nx_min = 0\nx_max = 0.5\ny_min = 0.49\ny_max = 1\n[region.left]\ngeometry = left\n"
         top = line(0, 0.5, 9, seed=2) + line(0.5, 1, 9, seed=3)[1:]
         fault = [(0.5 + 0.05 * H, 0.8), (0.5 - 0.05 * H, 0.65), (0.5 + 0.05 * H, 0.52),
                  (0.53, 0.5 + 0.05 * H), (0.7, 0.5 - 0.04 * H), (0.85, 0.5 + 0.03 * H)]

@@ -351,8 +351,8 @@ TEST(Config, TheEdgeLengthIsWithinTheBoundsOfTheSize) {
 TEST(Config, TakesSizes) {
   const RunOptions options = parse_config(good, "dir/c.ini", {"sizing.type=expression", "sizing.expression=1+3*x+3*y"});
   EXPECT_EQ(options.sizing.type, "expression");
-  EXPECT_EQ(options.sizing.expression, "1+3*x+3*y");
-  EXPECT_EQ(options.sizing.expression_place, "command line: 'expression' in [sizing]");
+  EXPECT_EQ(options.sizing.expression.text, "1+3*x+3*y");
+  EXPECT_EQ(options.sizing.expression.place, "command line: 'expression' in [sizing]");
   EXPECT_TRUE(options.warnings.empty());
   EXPECT_EQ(parse_config(good + "[sizing]\ntype = automatic\ngradation = 0.2\n", "c.ini", {}).sizing.gradation, 0.2);
 }
