@@ -18,7 +18,7 @@ namespace trime::formats {
 struct FilePlan {
   std::string path;
   std::vector<io::TextRows> rows;
-  mesh::Checks checks{}; ///< of what the file holds beyond the mesh
+  mesh::Checks checks{}; ///< what was checked about data beyond the mesh
   std::string summary{}; ///< a line about that
 };
 

@@ -19,7 +19,7 @@ struct JoinedLines {
   geometry::Vec2 place{};    ///< where that vertex is
 };
 
-/// Arcs, some of which were joined.
+/// Arcs after some of them were joined.
 struct SnappedArcs {
   std::vector<geometry::InnerArc> arcs;
   JoinedLines joined;

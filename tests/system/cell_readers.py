@@ -49,7 +49,7 @@ class CellFile:
         return areas
 
     def is_convex(self):
-        """Whether no corner of a polygon is reflex, but for rounding."""
+        """Returns for each polygon whether no corner is reflex, except by rounding."""
         convex = np.empty(len(self.polygons), bool)
         for k, polygon in enumerate(self.polygons):
             to = np.roll(self.vertices[polygon], -1, axis=0) - self.vertices[polygon]

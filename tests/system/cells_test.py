@@ -26,7 +26,7 @@ CRACKED = (rectangle("box", (0, 0), (1, 1)) + "[shape]\ngeometry = box\n[curve.c
 
 
 class Cells(WorkspaceCase):
-    """Each test makes its meshes in a directory of its own."""
+    """Each test makes its meshes in a separate directory."""
 
     def mesh(self, config, *changes, ranks=1, name="mesh", formats="vtkhdf xdmf voronoi"):
         done = run(config, f"output.directory={self.directory}", f"output.name={name}", f"output.formats={formats}",

@@ -105,7 +105,7 @@ class FaultInterfaces(WorkspaceCase):
         self.assertTrue(self.has((0.5, 0.6)))
 
     def test_stays_apart(self):
-        """A fault parallel at 0.3 h and at 1 h is a line of its own."""
+        """A fault parallel at 0.3 h and at 1 h is a separate line."""
         for distance, alpha in ((0.3, 1.6), (1, 1.3)):
             with self.subTest(distance):
                 fault = line(0.2, 0.8, 13, seed=3, height=0.5 + distance * H)
@@ -124,7 +124,8 @@ class FaultInterfaces(WorkspaceCase):
 
     def test_through_a_junction(self):
         """Along two interfaces, through the place where three regions meet."""
-        regions = "[shape.left]\ntype = rectangle\nx_min = 0\nx_max = 0.5\ny_min = 0.49\ny_max = 1\n[region.left]\ngeometry = left\n"
+        regions = ("[shape.left]\ntype = rectangle\nx_min = 0\nx_max = 0.5\ny_min = 0.49\ny_max = 1\n"
+                   "[region.left]\ngeometry = left\n")
         top = line(0, 0.5, 9, seed=2) + line(0.5, 1, 9, seed=3)[1:]
         fault = [(0.5 + 0.05 * H, 0.8), (0.5 - 0.05 * H, 0.65), (0.5 + 0.05 * H, 0.52),
                  (0.53, 0.5 + 0.05 * H), (0.7, 0.5 - 0.04 * H), (0.85, 0.5 + 0.03 * H)]

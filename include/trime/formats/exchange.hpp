@@ -21,8 +21,9 @@ class ExchangeMesh;
 struct FilePlan;
 
 /// The output formats. vtkhdf and xdmf describe the arrays of NAME.h5 for other readers, and text has the files of
-/// TriMe++. gmsh is MSH 4.1, gmsh2 MSH 2.2, and sms .2dm. schism is hgrid.gr3, and telemac is Selafin with its boundary
-/// conditions. voronoi, disv (MODFLOW 6) and uge (PFLOTRAN) have the Voronoi cells of the points, not the triangles.
+/// TriMe++. The formats gmsh, gmsh2 and sms are MSH 4.1, MSH 2.2 and .2dm; schism is hgrid.gr3, and telemac is Selafin
+/// with its boundary conditions. The formats voronoi, disv (MODFLOW 6) and uge (PFLOTRAN) have the Voronoi cells of the
+/// points, not the triangles.
 enum class Format {
   vtkhdf,
   xdmf,
@@ -94,7 +95,7 @@ std::vector<std::string> paths_of(Format format, const std::string& path, const 
 /// The files of a format.
 struct Exported {
   std::vector<std::string> paths;
-  mesh::Checks checks{}; ///< of what the files hold beyond the mesh, such as Voronoi cells
+  mesh::Checks checks{}; ///< what was checked about data beyond the mesh, such as Voronoi cells
   std::string summary{}; ///< a line about that
 };
 
