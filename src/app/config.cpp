@@ -385,6 +385,9 @@ void read_output(const Settings& settings, RunOptions& options, Diagnostics& pro
   if (options.courant.time_step > 0 && settings.text("output", "depth") == "none")
     problems.add(settings.line("output", "time_step"),
                  "'time_step' in [output] needs 'depth', from which the speed of waves follows");
+  if (options.courant.time_step > 0 && (options.periodic_x || options.periodic_y))
+    problems.add(settings.line("output", "time_step"),
+                 "'time_step' in [output]: Courant numbers are not known for a periodic container; remove the key");
   options.mesh.snapshot_interval = interval == -1 ? 0 : static_cast<int>(interval);
   options.output.steps = options.mesh.snapshot_interval != 0;
   check_name(settings, file.name, problems);

@@ -261,6 +261,8 @@ public:
       const auto timing = job.timers.scope("size field");
       return build_size(job.options, input_.domain(), job.comm, input_.bounds, fields_);
     }();
+    if (!job.options.depth.text.empty())
+      depth_.emplace(build_formula(job.options.depth, input_.domain(), fields_));
     points_ = meshing::Mesher(job.comm, input_.domain(), *size_.field, mesh_, job.log, job.timers).expected_points();
     check_output();
     if (placement_.threads != placement_.setup_threads)
@@ -291,6 +293,7 @@ private:
   formats::MeshSeries series_;
   const meshing::MeshOptions mesh_; // with places in the container
   BuiltSize size_;
+  std::optional<DistanceFormula> depth_;          // of the points, if the config asks for depths
   double points_ = 0;                             // about as many as the mesh will have
   std::optional<record::CourantSummary> courant_; // of the final mesh, if the config has a time step
 };
@@ -339,10 +342,10 @@ meshing::MeshResult MeshRun::make_mesh(const Provenance& provenance) {
 
 /// Gives the points their depths if the config asks for them.
 void MeshRun::add_depths(meshing::MeshResult& result) {
-  if (job_.options.depth.text.empty())
+  if (!depth_)
     return;
   const auto timing = job_.timers.scope("depth");
-  add_depth(build_formula(job_.options.depth, input_.domain(), fields_), result, job_.comm);
+  add_depth(*depth_, result, job_.comm);
   if (job_.options.courant.time_step > 0)
     courant_ = record::courant_numbers(job_.options.courant, result.mesh, job_.comm);
 }
@@ -368,7 +371,7 @@ void MeshRun::print_results(const RunFacts& facts) const {
     job_.log.info("{}", run_report(facts.result, facts.size, facts.measured, facts.files, input_.normalized));
   else
     job_.log.summary("{}", run_summary(facts));
-  for (const formats::Format format : {formats::Format::adcirc, formats::Format::schism})
+  for (const formats::Format format : {formats::Format::adcirc, formats::Format::schism, formats::Format::telemac})
     if (job_.options.write && job_.options.output.wants(format))
       job_.log.summary("{}: {}", formats::info_of(format).word,
                        formats::open_boundary_text(series_options(job_, input_).names, facts.part_edges));

@@ -298,6 +298,10 @@ std::vector<std::array<GlobalId, 2>> Mesh::facets(const std::string& name) const
   return found;
 }
 
+geometry::Vec2 Mesh::periods() const {
+  return implementation_->origin.period;
+}
+
 LocalMesh Mesh::local(handover::Overlap overlap) const {
   check_running();
   return {handover::make_local_mesh(communicator(), result().mesh, overlap), names(), implementation_->communicator};
@@ -334,7 +338,11 @@ void Mesh::write(const std::string& path, const WriteOptions& options) const {
   const formats::Names names = names_of(origin);
   formats::refuse_to_replace(formats::paths_of(*format, path, names), options.overwrite, how_to_replace, comm);
   make_directory_of(file, comm);
-  formats::write(*format, path, result().mesh, names, nullptr, comm);
+  const formats::Exported made = formats::write(*format, path, result().mesh, names, nullptr, comm);
+  for (const mesh::Check& check : made.checks)
+    if (!check.passed && comm.is_root())
+      fmt::print(stderr, "warning: {}: check {} FAILED: expected {:.15g}, found {:.15g} ({})\n", path, check.name,
+                 check.expected, check.found, check.meaning);
 }
 
 Mesh make_mesh(MPI_Comm handle, const Shape& shape, const Size& size, const MeshOptions& options) {

@@ -27,7 +27,7 @@ constexpr FormatInfo table[] = {
     {Format::vtu, "vtu", ".vtu", false, true, plan_vtu},
     {Format::voronoi, "voronoi", "_cells.vtu", true, true, plan_voronoi},
     {Format::disv, "disv", ".disv", false, true, plan_disv},
-    {Format::uge, "uge", ".uge", true, true, plan_uge},
+    {Format::uge, "uge", ".uge", false, true, plan_uge},
     {Format::sms, "2dm", ".2dm", false, false, plan_sms},
     {Format::adcirc, "fort14", ".14", false, false, plan_adcirc},
     {Format::schism, "gr3", ".gr3", false, false, plan_schism},

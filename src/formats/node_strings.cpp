@@ -78,8 +78,14 @@ double signed_area(const std::vector<Edge>& loop) {
   return area;
 }
 
-void append_strings(std::vector<Edge> loop, std::vector<NodeString>& strings) {
-  const bool is_island = signed_area(loop) < 0;
+/// A loop around a hole, or both sides of a curve that is split, which have no area between them.
+bool goes_round_island(const std::vector<Edge>& loop, std::size_t parts) {
+  const auto is_on_curve = [&](const Edge& edge) { return edge.label > static_cast<std::int64_t>(parts); };
+  return std::ranges::all_of(loop, is_on_curve) || signed_area(loop) < 0;
+}
+
+void append_strings(std::vector<Edge> loop, std::size_t parts, std::vector<NodeString>& strings) {
+  const bool is_island = goes_round_island(loop, parts);
   std::size_t turn = 0; // the first edge whose label is not that of the edge before it
   while (turn < loop.size() && loop[turn].label == loop[turn == 0 ? loop.size() - 1 : turn - 1].label)
     ++turn;
@@ -94,10 +100,10 @@ void append_strings(std::vector<Edge> loop, std::vector<NodeString>& strings) {
   }
 }
 
-BoundaryRing ring_of(std::vector<Edge> loop) {
+BoundaryRing ring_of(std::vector<Edge> loop, std::size_t parts) {
   const auto height = [](const Edge& edge) { return edge.place.x + edge.place.y; };
   std::rotate(loop.begin(), std::ranges::min_element(loop, {}, height), loop.end());
-  BoundaryRing ring{signed_area(loop) < 0, {}, {}};
+  BoundaryRing ring{goes_round_island(loop, parts), {}, {}};
   for (const Edge& edge : loop) {
     ring.points.push_back(edge.first);
     ring.labels.push_back(edge.label);
@@ -112,7 +118,7 @@ std::vector<BoundaryRing> boundary_rings(const ExchangeMesh& mesh) {
   std::vector<BoundaryRing> rings;
   comm::run_agreed(mesh.comm(), [&] {
     for (std::vector<Edge>& loop : loops_of(edges))
-      rings.push_back(ring_of(std::move(loop)));
+      rings.push_back(ring_of(std::move(loop), mesh.names().parts.size()));
     std::ranges::stable_sort(rings, {}, &BoundaryRing::is_island);
   });
   return rings;
@@ -123,7 +129,7 @@ std::vector<NodeString> node_strings(const ExchangeMesh& mesh) {
   std::vector<NodeString> strings;
   comm::run_agreed(mesh.comm(), [&] {
     for (std::vector<Edge>& loop : loops_of(edges))
-      append_strings(std::move(loop), strings);
+      append_strings(std::move(loop), mesh.names().parts.size(), strings);
   });
   return strings;
 }

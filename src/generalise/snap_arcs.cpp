@@ -23,6 +23,8 @@ using geometry::Segment;
 using geometry::Vec2;
 
 constexpr int most_rounds = 20; // edges may come near to further vertices
+// The nearest edge of a line is usually the one that leads through a vertex; a few more may be tried if it may not.
+constexpr std::size_t most_edges = 4;
 
 class ArcSnapper {
 public:
@@ -92,21 +94,28 @@ private:
     return is_other;
   }
 
-  /// All such pairs within reach, the nearest first.
+  /// Such pairs within reach, the nearest first: for each vertex with its nearest edges, so that the memory does not
+  /// grow with the number of edges within reach. Others come in a later round.
   std::vector<Near> near_pairs() const {
     std::vector<Near> pairs;
     for (LocalIndex v = 0; v < net_.vertex_count(); ++v) {
       if (net_.around(v).empty())
         continue;
       const double reach = reach_at(v);
+      std::vector<Near> here;
       for (const std::size_t k : tree_.within(net_.place(v), reach))
         if (k >= rim_.size() && may_meet(v, edges_[k - rim_.size()]))
-          pairs.push_back(pair_of(v, edges_[k - rim_.size()]));
+          here.push_back(pair_of(v, edges_[k - rim_.size()]));
+      std::ranges::sort(here, {}, order_of);
+      here.resize(std::min(here.size(), most_edges));
+      pairs.insert(pairs.end(), here.begin(), here.end());
     }
-    std::ranges::sort(pairs, {}, [](const Near& near) {
-      return std::tuple(near.squared_distance, near.back, near.vertex, near.edge);
-    });
+    std::ranges::sort(pairs, {}, order_of);
     return pairs;
+  }
+
+  static std::tuple<double, double, LocalIndex, LocalIndex> order_of(const Near& near) {
+    return {near.squared_distance, near.back, near.vertex, near.edge};
   }
 
   Near pair_of(LocalIndex v, LocalIndex e) const {

@@ -63,7 +63,7 @@ struct Rows {
 /// @throws pybind11::value_error on this rank alone for an array of another kind
 Rows rows_of(const py::array& array, const LocalMesh& mesh) {
   const auto points = std::ssize(mesh.points());
-  const bool fits = array.dtype().is(py::dtype::of<double>()) && (array.ndim() == 1 || array.ndim() == 2) &&
+  const bool fits = py::isinstance<py::array_t<double>>(array) && (array.ndim() == 1 || array.ndim() == 2) &&
                     array.shape(0) == points && (array.flags() & py::array::c_style) != 0 && array.writeable();
   if (!fits)
     throw py::value_error(fmt::format("expected a writeable array of doubles in the order of C with {} rows, one for "

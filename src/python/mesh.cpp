@@ -133,6 +133,8 @@ void bind_mesh(py::module_& module) {
       .def_property_readonly("triangles", &Mesh::triangles)
       .def_property_readonly("certified", &Mesh::certified)
       .def_property_readonly("hash", [](const Mesh& mesh) { return fmt::format("{:016x}", mesh.hash()); })
+      .def_property_readonly("periods",
+                             [](const Mesh& mesh) { return py::make_tuple(mesh.periods().x, mesh.periods().y); })
       .def_property_readonly("checks", checks_of)
       .def_property_readonly("quality", quality_of)
       .def_property_readonly("names", names_of)

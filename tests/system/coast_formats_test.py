@@ -178,6 +178,22 @@ class CoastFormats(WorkspaceCase):
             self.assertEqual(done.returncode, 2, done.stdout)
             self.assertRegex(done.stderr, said)
 
+    def test_a_wrong_name_in_the_depth_is_found_before_the_mesh_is_made(self):
+        done = run(self.directory / "bay.ini", "output.depth=0.01*dist(cost)", ranks=2)
+        self.assertEqual(done.returncode, 2, done.stdout)
+        self.assertIn("cost", done.stderr)
+        self.assertNotIn("Sweeps", done.stdout)
+
+    def test_both_sides_of_a_crack_are_an_island(self):
+        """They enclose no area, whatever the rounding says."""
+        self.write("crack.xy", [(0.1, 0.2), (0.2, 0.233), (0.31, 0.29)])
+        text = (self.directory / "bay.ini").read_text()
+        (self.directory / "bay.ini").write_text("[curve.crack]\nfile = crack.xy\nsplit = true\n" + text)
+        self.mesh("output.formats=vtkhdf xdmf gr3 slf", ranks=3)
+        self.assertIn(("crack", 1), [(name, kind) for name, kind, _ in Gr3(self.directory / "bay.gr3").land])
+        slf = Slf(self.directory / "bay.slf")
+        self.assertEqual(slf.points[slf.rim[0]].tolist(), [0, 0])
+
     def test_a_field_for_the_depth_alone_leaves_the_size_relative(self):
         done = self.mesh("sizing.type=expression", "sizing.expression=1+x")
         self.assertNotIn("scale = absolute", done.stdout)

@@ -163,6 +163,8 @@ public:
   /// Returns the hash of points and triangles, which is the same for any number of ranks and threads.
   std::uint64_t hash() const;
 
+  /// Returns the periods of the container; 0 in a direction in which it is not periodic.
+  geometry::Vec2 periods() const;
   /// Returns the names of the boundary, the regions, the curves and the interfaces.
   MeshNames names() const;
   /// Returns the names of the parts of the boundary, in the order of mesh::DistributedMesh::facet_parts. The function

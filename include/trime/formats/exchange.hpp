@@ -100,8 +100,8 @@ struct Exported {
 };
 
 /// @brief Writes the mesh in a format of another program. Each file appears complete or not at all; files of the same
-/// name are replaced. The ranks make the text in slices, so no rank holds the whole of it; for sms and adcirc, however,
-/// rank 0 gathers all boundary edges.
+/// name are replaced. The ranks make the text in slices, so no rank holds the whole of it; for sms, adcirc, schism and
+/// telemac, however, rank 0 gathers all boundary edges.
 /// @param files list of the temporary files, which a signal handler removes; may be null
 /// @throws ConfigError for a mesh that the format cannot hold (periodic container, too many points); FileError if a
 /// file cannot be written; both on all ranks together

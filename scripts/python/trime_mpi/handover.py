@@ -5,6 +5,8 @@ import typing
 
 import numpy as np
 
+from .errors import ConfigError
+
 TAG = 7411  # of the messages of this file
 
 
@@ -25,6 +27,13 @@ class Dolfinx:
     def find(self, name):
         """Returns the facets of dolfinx with this name on this rank."""
         return self.facet_tags.find(self.facets[name])
+
+
+def refuse_periods(mesh, package):
+    """Other packages take the coordinates as they are. All ranks find the same."""
+    if any(mesh.periods):
+        raise ConfigError([f"{package} cannot hold a periodic mesh, found one with the periods {mesh.periods}; use the "
+                           "arrays, or write `vtkhdf` or `xdmf`"])
 
 
 def global_triangles(mesh):
@@ -95,6 +104,7 @@ def dolfinx_of(mesh, ghost_mode):
     """Returns the Dolfinx of a trime_mpi.parallel.Mesh. Collective."""
     import dolfinx
     import ufl
+    refuse_periods(mesh, "dolfinx")
     triangles = global_triangles(mesh)
     mode = dolfinx.mesh.GhostMode.__members__[ghost_mode]
     ranks = ranks_of_cells(mesh)  # dolfinx finds shared vertices by the cells that several ranks get
@@ -111,10 +121,12 @@ def dolfinx_of(mesh, ghost_mode):
 def meshio_of(mesh):
     """Returns the meshio.Mesh of a trime_mpi.parallel.Mesh: the triangles and named edges that the rank owns."""
     import meshio
+    refuse_periods(mesh, "meshio")
     edges, tags, numbers = named_edges(mesh)
     regions = mesh.regions[:mesh.owned_triangles] if len(mesh.regions) else np.ones(mesh.owned_triangles)
     kinds = {name: np.array([number, 1]) for name, number in numbers.items()}
-    kinds |= {name: np.array([number, 2]) for number, name in enumerate(mesh.region_names, 1)}
+    kinds |= {f"region {name}" if name in kinds else name: np.array([number, 2])  # as the formats of Gmsh name it
+              for number, name in enumerate(mesh.region_names, 1)}
     return meshio.Mesh(mesh.points, [("triangle", mesh.triangles[:mesh.owned_triangles]), ("line", edges)],
                        point_data={"global_id": mesh.global_ids},
                        cell_data={"gmsh:physical": [regions.astype(np.int32), tags]}, field_data=kinds)

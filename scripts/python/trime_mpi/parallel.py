@@ -155,11 +155,16 @@ class Mesh:
 
     owned_points, owned_triangles, owned_facets, owned_curve_edges and owned_interfaces count what this rank owns.
     first_point is the global id of the first point. total_points and total_triangles count over all ranks.
+
+    The pair `periods` has the periods of the container, 0 where it is not periodic. Triangles across its border have
+    points on both sides. Facets on a split curve have the number of parts plus that of the curve in facet_parts;
+    facets_of finds them by the name of the curve.
     """
 
     def __init__(self, native, comm):
         self._native, self._local, self.comm = native, native.local(), comm
         self.hash, self.certified, self.quality = native.hash, native.certified, native.quality
+        self.periods = native.periods
         self.checks = [Check(*row) for row in native.checks]
         for kind, names in native.names.items():
             setattr(self, {"facets": "facet", "regions": "region", "curves": "curve", "interfaces": "interface",
@@ -183,8 +188,13 @@ class Mesh:
         return self._local.global_ids()
 
     def facets_of(self, name):
-        """Returns the rows of `facets` on the part of the boundary with this name, ghosts among them."""
-        return np.flatnonzero(self.facet_parts == self._number(name, self.facet_names, "boundary"))
+        """Returns the rows of `facets` on the part of the boundary or the split curve with this name, ghosts among
+        them."""
+        names = [*self.facet_names, *(name for name in self.curve_names if name in self.split_curve_names)]
+        number = self._number(name, names, "boundary")
+        if number >= len(self.facet_names):
+            number = len(self.facet_names) + self.curve_names.index(name)
+        return np.flatnonzero(self.facet_parts == number)
 
     def region_of(self, name):
         """Returns the local triangles of the region with this name."""
