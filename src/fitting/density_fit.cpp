@@ -68,8 +68,13 @@ public:
                                                    : *context_.options.edge_length;
     double smallest = 0;
     comm::run_agreed(context_.comm, [&] { smallest = smallest_sampled_size(context_); });
-    if (context_.options.points)
-      return for_points(uniform, smallest);
+    if (context_.options.points) {
+      DensityResult found = for_points(uniform, smallest);
+      if (const SizeTrial* trial = std::get_if<SizeTrial>(&found); trial && !context_.domain.curves().empty())
+        if (std::optional<TooFewPoints> few = too_coarse(*trial, uniform, uniform / smallest))
+          return *few;
+      return found;
+    }
     return for_edge_length(uniform / smallest);
   }
 
@@ -222,6 +227,22 @@ private:
     if (finer.accepted)
       return std::move(*finer.accepted);
     return finer.best.points > best.points ? std::move(finer.best) : std::move(best);
+  }
+
+  /// @brief Narrow places inside may take nearly all points. The triangles elsewhere would then be large, and regions
+  /// that the user gave would be simplified away. In this case there are too few points.
+  /// @param trial the result @param factor with which the size is nowhere smaller than a uniform one
+  std::optional<TooFewPoints> too_coarse(const SizeTrial& trial, double uniform, double factor) {
+    const double found = std::fmax(trial.fitted.factor, trial.fitted.curves.factor);
+    CountEstimate estimate(context_, points_, FitRules::reference_spacing * uniform,
+                           std::fmax(rough_, FitRules::reference_coarsening));
+    const double plain = estimated_factor(estimate, factor, false); // without narrow places
+    if (found <= FitRules::coarsest_partition * plain)
+      return std::nullopt;
+    const SizeTrial needed = SizeTrials(context_, points_, trials_.coarsening()).run(plain);
+    Fewest fewest;
+    fewest.consider(needed.fit.stage, needed.points, needed.fit.inner <= FitRules::hopelessly_many * points_);
+    return too_few_points(context_, fewest);
   }
 
   SizeTrial for_edge_length(double factor) {

@@ -112,6 +112,9 @@ struct FitRules {
   /// [points asked for] In estimates and trials, counting ends if a part of one tile has this number of sites. During a
   /// search, sizes with narrow valleys gave 10^5 times as many, and took a minute. Not measured.
   static constexpr double hopelessly_many = 16;
+  /// [1] Largest factor on the size by which a shape with curves or regions inside makes room for the points at narrow
+  /// places. With a larger one, regions that are as wide as the triangles asked for would go. Not measured.
+  static constexpr double coarsest_partition = 2.5;
   /// [h] Step of the integral along the boundary in an estimate.
   static constexpr double integral_step = 1;
   /// [1] The boundary counts as ragged if strides of length h along it are fewer than this share of its length over h.
