@@ -345,8 +345,8 @@ void MeshRun::add_depths(meshing::MeshResult& result) {
   if (!depth_)
     return;
   const auto timing = job_.timers.scope("depth");
-  add_depth(*depth_, result, job_.comm);
-  if (job_.options.courant.time_step > 0)
+  add_depth(*depth_, result, job_.comm, job_.log);
+  if (job_.options.courant.time_step > 0 && result.checks.back().passed)
     courant_ = record::courant_numbers(job_.options.courant, result.mesh, job_.comm);
 }
 

@@ -201,7 +201,7 @@ private:
     if (!is_attribute() && !is_id)
       return;
     const std::string& key = objects_.back().key;
-    if (const int rank = key == attribute_ ? chosen_rank : telling_rank(key); rank > name_rank_) {
+    if (const int rank = std::max(telling_rank(key), key == attribute_ ? chosen_rank : 0); rank > name_rank_) {
       feature_.name = text();
       name_rank_ = rank;
     }

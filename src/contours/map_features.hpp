@@ -32,7 +32,8 @@ std::string line_or_feature(const Contour& contour, int line);
 /// Returns how well people recognise a feature by the attribute with this name: 0 for not at all.
 int telling_rank(std::string_view attribute);
 
-/// The rank of the attribute that the user has chosen for the names of boundaries, regions or curves: above all others.
-constexpr int chosen_rank = 100;
+/// The rank of the attribute that the user has chosen for the names of boundaries, regions or curves: above ids, and
+/// below names, since many features may have the same value.
+constexpr int chosen_rank = 8;
 
 } // namespace trime::contours

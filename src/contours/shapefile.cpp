@@ -135,7 +135,7 @@ public:
       std::array<char, XBASE_FLDNAME_LEN_READ + 1> name{};
       DBFGetFieldInfo(table_.get(), k, name.data(), nullptr, nullptr);
       rings.has_attribute(k == field_ ? attribute : as_utf8(name.data()));
-      if (const int rank = k == field_ ? chosen_rank : telling_rank(name.data()); rank > best) {
+      if (const int rank = std::max(telling_rank(name.data()), k == field_ ? chosen_rank : 0); rank > best) {
         best = rank;
         name_field_ = k;
       }

@@ -177,7 +177,7 @@ class MapUser(unittest.TestCase):
         line[41:41] = [[line[40][0] - 0.05, line[40][1] + 0.02], line[40]]  # a spike
         line[100:100] = [line[100]] * 2
         dirty += [copy.deepcopy(dirty[1])]  # the open sea twice
-        self.refused(r"map\.geojson \(feature 1\): the ring turns straight back.*try 'repair = true'", dirty)
+        self.refused(r"map\.geojson \(feature 1, 'coast'\): the ring turns straight back.*try 'repair = true'", dirty)
         done = self.good(dirty, "shape.water.repair=true")
         self.assertRegex(done.stderr + done.stdout, r"\(feature 6\): this line is the same as an earlier one")
         with h5py.File(self.work / "out" / "map.h5") as file:

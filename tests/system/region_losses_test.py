@@ -4,6 +4,7 @@
 layers stay whole, and the table of losses explains each area.
 """
 import math
+import re
 import subprocess
 import unittest
 
@@ -147,6 +148,18 @@ class Wedges(LossesTest):
             self.assertAlmostEqual(mesh.area("dyke") + self.lost_by("dyke"), area_of(ring), delta=1e-11)
             self.assertFalse(any(reason == "pinch-out" for _, _, reason in self.table()))
             self.assertLess(abs(self.lost_by("dyke")), 0.01 * area_of(ring))
+
+    def test_a_thin_layer_makes_no_region_vanish(self):
+        """A seam of 0.17 h across the shape takes more points than there are: an error with a number that suffices.
+        Runs with too few points once made the triangles larger until the layers next to the seam were gone."""
+        text = (rectangle("across", (-0.1, 0.5), (1.1, 0.504)) + rectangle("below", (-0.1, -0.1), (1.1, 0.5)) +
+                region("seam", "across") + region("low", "below"))
+        done = self.run_config(text, points=2000, shape="geometry = domain\nrest = top", ranks=3)
+        self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
+        enough = int(re.search(r"points = 2000 are too few .*; (\d+) points are enough", done.stderr)[1])
+        mesh = self.mesh(text, points=enough, shape="geometry = domain\nrest = top")
+        for name, area in (("seam", 0.004), ("low", 0.5), ("top", 0.496)):
+            self.assertAlmostEqual(mesh.area(name), area, delta=1e-9)
 
 
 class Table(LossesTest):

@@ -72,8 +72,9 @@ class EdgeCut(unittest.TestCase):
         self.assertEqual([int(row[1]) for row in rows], 3 * [4, 16])
         for row in rows:
             self.assertLess(float(row[3].strip(" %")), 10, row)  # uneven: points of the largest part over the mean
-            if row[8].strip():
-                self.assertLess(float(row[8]), 3, row)  # a curve through the plane knows nothing of the shape's necks
+            if row[4].strip():  # METIS; the parts of Scotch differ from run to run, by a fifth of the cut
+                # A curve through the plane knows nothing of the shape's necks.
+                self.assertLess(float(row[2]) / float(row[4]), 3, row)
 
 
 if __name__ == "__main__":
