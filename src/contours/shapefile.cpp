@@ -8,6 +8,7 @@
 
 #include <shapefil.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <memory>
