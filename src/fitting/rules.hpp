@@ -114,7 +114,8 @@ struct FitRules {
   static constexpr double hopelessly_many = 16;
   /// [1] Largest factor on the size by which a shape with curves or regions inside makes room for the points at narrow
   /// places. With a larger one, regions that are as wide as the triangles asked for would go. Measured: sections that
-  /// lost whole layers had factors of 30 to 68; rasters of labels with cells smaller than the triangles need less than 6.
+  /// lost whole layers had factors of 30 to 68; rasters of labels with cells smaller than the triangles need less
+  /// than 6.
   static constexpr double coarsest_partition = 6;
   /// [h] Step of the integral along the boundary in an estimate.
   static constexpr double integral_step = 1;
