@@ -7,6 +7,7 @@
 #include "fitting/factor_search.hpp"
 #include "fitting/points_of_length.hpp"
 #include "fitting/rules.hpp"
+#include "fitting/simplified_curves.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -70,7 +71,8 @@ public:
     comm::run_agreed(context_.comm, [&] { smallest = smallest_sampled_size(context_); });
     if (context_.options.points) {
       DensityResult found = for_points(uniform, smallest);
-      if (const SizeTrial* trial = std::get_if<SizeTrial>(&found); trial && !context_.domain.curves().empty())
+      if (const SizeTrial* trial = std::get_if<SizeTrial>(&found);
+          trial && generalises(context_) && !context_.domain.curves().empty())
         if (std::optional<TooFewPoints> few = too_coarse(*trial, uniform, uniform / smallest))
           return *few;
       return found;
