@@ -179,7 +179,8 @@ class MapUser(unittest.TestCase):
         dirty += [copy.deepcopy(dirty[1])]  # the open sea twice
         self.refused(r"map\.geojson \(feature 1, 'coast'\): the ring turns straight back.*try 'repair = true'", dirty)
         done = self.good(dirty, "shape.water.repair=true")
-        self.assertRegex(done.stderr + done.stdout, r"\(feature 6, 'open sea'\): this line is the same as an earlier one")
+        self.assertRegex(done.stderr + done.stdout,
+                         r"\(feature 6, 'open sea'\): this line is the same as an earlier one")
         with h5py.File(self.work / "out" / "map.h5") as file:
             self.assertEqual(file["trime_mpi"].attrs["mesh_hash"], clean)
         self.confirmed()
