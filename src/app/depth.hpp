@@ -9,8 +9,8 @@
 
 namespace trime::app {
 
-/// @brief Sets the depth of all points of the mesh, and adds a check that all depths are numbers, which may fail. Prints
-/// their range. Collective. Cost: one evaluation per point, by all threads.
+/// @brief Sets the depth of all points of the mesh, and adds a check that all depths are numbers, which may fail.
+/// Prints their range. Collective. Cost: one evaluation per point, by all threads.
 void add_depth(const DistanceFormula& formula, meshing::MeshResult& result, const comm::Communicator& comm, Log& log);
 
 } // namespace trime::app
