@@ -4,7 +4,6 @@
 #include "core/distance_formula.hpp"
 #include "trime/core/error.hpp"
 
-#include <algorithm>
 #include <set>
 
 namespace trime::app {

@@ -120,6 +120,16 @@ GridAxis axis_of(const std::vector<double>& at, const std::string& what) {
   return {at.front(), step, count};
 }
 
+/// Returns the number that the NetCDF library stores in integer cells that no program has written, if the variable has
+/// no `_FillValue` (NC_FILL_SHORT and so on, NetCDF user's guide, "Fill values"). Those of floating-point numbers are
+/// above 1e30.
+double default_fill(std::size_t bytes, bool is_unsigned) {
+  const double range = std::ldexp(1.0, 8 * static_cast<int>(bytes)); // number of values
+  if (is_unsigned)
+    return bytes == 8 ? range - 2 : range - 1;
+  return bytes == 8 ? 2 - range / 2 : 1 - range / 2;
+}
+
 } // namespace
 
 std::string NetcdfGrid::what() const {
@@ -174,19 +184,6 @@ GridAxis NetcdfGrid::axis(int dimension) const {
   checked(H5Dread(scale, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, at.data()), action);
   return axis_of(at, fmt::format("the coordinates '{}' of {}", name, path_));
 }
-
-namespace {
-
-/// What the NetCDF library writes where a program has written no integer, and the variable has no `_FillValue`
-/// (NC_FILL_SHORT and so on, NetCDF user's guide, "Fill values"). Those of floating-point numbers are above 1e30.
-double default_fill(std::size_t bytes, bool is_unsigned) {
-  const double range = std::ldexp(1.0, 8 * static_cast<int>(bytes)); // number of values
-  if (is_unsigned)
-    return bytes == 8 ? range - 2 : range - 1;
-  return bytes == 8 ? 2 - range / 2 : 1 - range / 2;
-}
-
-} // namespace
 
 void NetcdfGrid::read_attributes() {
   const std::string action = "read the attributes of " + what();

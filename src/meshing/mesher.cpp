@@ -249,10 +249,10 @@ void Run::report_boundary() {
         "is shorter than 0.1 h; keep_features = true keeps all",
         joined, joined == 1 ? "" : "s", joined == 1 ? "is" : "are");
   if (const fitting::JoinedLines& lines = scheme_.joined_lines(); lines.vertices > 0)
-    run_.log.warning("curves and interfaces that follow each other are one line at {} {}, where they were nearer than "
-                     "0.2 h; the largest distance was {:.3g}, at {}; keep_features = true keeps both lines",
-                     lines.vertices, lines.vertices == 1 ? "vertex" : "vertices", lines.farthest,
-                     Place(lines.place, 6));
+    run_.log.warning(
+        "curves and interfaces that follow each other are one line at {} {}, where they were nearer than "
+        "the triangles can show; the largest distance was {:.3g}, at {}; keep_features = true keeps both lines",
+        lines.vertices, lines.vertices == 1 ? "vertex" : "vertices", lines.farthest, Place(lines.place, 6));
   comm::run_agreed(run_.comm, [this] {
     fitting::warn_of_fine_features(stage_, run_.options.min_size.has_value(), run_.log);
     if (run_.fit.gradation && !run_.relative_size.jumps())
