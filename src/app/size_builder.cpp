@@ -32,11 +32,6 @@ BuiltSize automatic_size(const RunOptions& options, const geometry::Domain& doma
   return size;
 }
 
-sizing::Images images_of(const geometry::Domain& domain) {
-  const geometry::Periods& periods = domain.boundary().periods;
-  return {domain.frame().container(), periods.x, periods.y};
-}
-
 /// A formula of a periodic container must have its periods: compares both ends of some lines across it.
 void check_periods(const DistanceFormula& formula, const RunOptions& options, const geometry::Frame& frame) {
   constexpr int lines = 64;
@@ -124,7 +119,7 @@ void lower_at_boundary(const RunOptions& options, const geometry::Domain& domain
   check_names(options, domain);
   try {
     size.field = std::make_unique<const sizing::BoundarySize>(*size.bases.back(), sizing::named_curves(domain),
-                                                              sizing.size_at, gradation, images_of(domain));
+                                                              sizing.size_at, gradation, sizing::images_of(domain));
   } catch (const ConfigError& error) {
     throw ConfigError(fmt::format("{}: {}", sizing.size_at_place, error.what()));
   }
@@ -157,14 +152,7 @@ void lower_in_regions(const RunOptions& options, const geometry::Domain& domain,
 
 DistanceFormula build_formula(const FormulaText& formula, const geometry::Domain& domain,
                               const std::vector<BuiltField>& fields) {
-  return DistanceFormula(
-      formula.text, formula.place,
-      [&](const std::string& name) -> PlaceFunction {
-        const auto curves = std::make_shared<const sizing::BoundaryDistance>(
-            name.empty() ? domain.boundary() : sizing::named_curves(domain), name, images_of(domain));
-        return [curves](double x, double y) { return curves->distance({x, y}); };
-      },
-      functions_of(fields));
+  return DistanceFormula(formula.text, formula.place, sizing::distances_in(domain), functions_of(fields));
 }
 
 BuiltSize build_size(const RunOptions& options, const geometry::Domain& domain, const comm::Communicator& comm,

@@ -259,20 +259,10 @@ private:
 class FormulaSize final : public sizing::SizeField {
 public:
   FormulaSize(const std::string& text, const geometry::Domain& domain)
-      : formula_(text, "the formula of the size", distances_in(domain)), size_(formula_, box_of(domain)) {}
+      : formula_(text, "the formula of the size", sizing::distances_in(domain)), size_(formula_, box_of(domain)) {}
   double size(geometry::Vec2 p) const override { return size_.size(p); }
 
 private:
-  /// Returns how a formula finds the distance to a named part. The result must not outlive the domain.
-  static DistanceLookup distances_in(const geometry::Domain& domain) {
-    return [&domain](const std::string& name) -> PlaceFunction {
-      const geometry::Periods& periods = domain.boundary().periods;
-      const auto curves = std::make_shared<const sizing::BoundaryDistance>(
-          name.empty() ? domain.boundary() : sizing::named_curves(domain), name,
-          sizing::Images{domain.frame().container(), periods.x, periods.y});
-      return [curves](double x, double y) { return curves->distance({x, y}); };
-    };
-  }
   static Box box_of(const geometry::Domain& domain) {
     return domain.frame().periods().any() ? domain.frame().container() : domain.boundary().bounding_box();
   }

@@ -95,6 +95,19 @@ geometry::Boundary named_curves(const geometry::Domain& domain) {
   return named;
 }
 
+Images images_of(const geometry::Domain& domain) {
+  const geometry::Periods& periods = domain.boundary().periods;
+  return {domain.frame().container(), periods.x, periods.y};
+}
+
+DistanceLookup distances_in(const geometry::Domain& domain) {
+  return [&domain](const std::string& name) -> PlaceFunction {
+    const auto curves = std::make_shared<const BoundaryDistance>(
+        name.empty() ? domain.boundary() : named_curves(domain), name, images_of(domain));
+    return [curves](double x, double y) { return curves->distance({x, y}); };
+  };
+}
+
 BoundaryDistance::BoundaryDistance(const geometry::Boundary& boundary, std::string_view name, const Images& images)
     : images_(images) {
   constexpr int most_copies = 8;

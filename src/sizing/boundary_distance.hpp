@@ -2,6 +2,7 @@
 // The distance to the parts of a boundary that have a given name, and sizes that grow with this distance.
 #pragma once
 
+#include "core/distance_formula.hpp"
 #include "sizing/piece_locator.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/sizing/size_field.hpp"
@@ -21,6 +22,13 @@ std::vector<int> parts_named(std::string_view name, const std::vector<std::strin
 /// @brief Returns the boundary of a domain, and its inner curves as further loops, whose names follow those of the
 /// parts. The result is a list of named curves; it bounds no shape if there are inner curves.
 geometry::Boundary named_curves(const geometry::Domain& domain);
+
+/// Returns the periodic images of what lies in the container of the domain.
+Images images_of(const geometry::Domain& domain);
+
+/// Returns how a formula finds the distance to the boundary or to named curves of a domain, which must outlive the
+/// result. The functions that it returns do not need the domain.
+DistanceLookup distances_in(const geometry::Domain& domain);
 
 /// @brief Finds the distance to the parts of a boundary. Immutable; queries are thread-safe and give the same bits on
 /// every rank.
