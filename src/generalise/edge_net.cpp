@@ -61,14 +61,16 @@ LocalIndex EdgeNet::between(LocalIndex a, LocalIndex b) const {
 
 bool EdgeNet::may_join(LocalIndex e, LocalIndex f) const {
   const Edge &curve = edge(e).is_curve() ? edge(e) : edge(f), &border = edge(e).is_curve() ? edge(f) : edge(e);
-  return curve.is_curve() && border.is_interface() && !curve.piece.circular && !border.piece.circular &&
-         (border.left == curve.left || border.right == curve.left);
+  return curve.is_curve() && (border.is_interface() || border.is_curve()) && !curve.piece.circular &&
+         !border.piece.circular && (border.left == curve.left || border.right == curve.left);
 }
 
-/// Gives the part the name and the direction of the curve, and the regions of the interface, of the two edges.
+/// Gives the part the name and the direction of the curve, and the regions of the interface, of the two edges. Of two
+/// curves the first one names the edge.
 void EdgeNet::join(Edge& part, const Edge& other) const {
   const bool turns = part.a != other.a;
-  const Edge &curve = part.is_curve() ? part : other, &border = part.is_curve() ? other : part;
+  const bool is_first = part.is_curve() && (!other.is_curve() || part.piece.part <= other.piece.part);
+  const Edge &curve = is_first ? part : other, &border = is_first ? other : part;
   Edge joined = curve;
   joined.left = turns ? border.right : border.left;
   joined.right = turns ? border.left : border.right;

@@ -44,8 +44,8 @@ public:
   const std::vector<LocalIndex>& around(LocalIndex vertex) const { return around_[at(vertex)]; }
   /// Returns the living edge between two vertices; -1 if no edge leads there.
   LocalIndex between(LocalIndex a, LocalIndex b) const;
-  /// Returns whether a curve and an interface with the same ends may become one edge: one of them is a curve inside one
-  /// of the two regions of the other one.
+  /// Returns whether two edges with the same ends may become one edge: one of them is a curve inside a region, and the
+  /// other one is an interface of this region or another curve in it.
   bool may_join(LocalIndex e, LocalIndex f) const;
   /// @brief Leads an edge through a vertex. Parts with the same ends as another edge become one with it.
   /// @pre may_join holds for such edges

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -26,11 +27,16 @@ constexpr int most_rounds = 20; // edges may come near to further vertices
 // The nearest edge of a line is usually the one that leads through a vertex; a few more may be tried if it may not.
 constexpr std::size_t most_edges = 4;
 
+// [1] Two curves that meet follow each other if their distance is below this share of the way along them from one to
+// the other: they then meet at less than about 20 degrees. Not measured.
+constexpr double narrow_share = 0.35;
+constexpr std::size_t most_steps = 1000; // along curves with very many vertices; those that are not searched stay apart
+
 class ArcSnapper {
 public:
-  ArcSnapper(const std::vector<InnerArc>& arcs, const Boundary& boundary, const sizing::SizeField& size,
+  ArcSnapper(const std::vector<InnerArc>& arcs, const Boundary& boundary, const ArcRules& rules,
              const VertexTree& vertices)
-      : boundary_(boundary), size_(size), vertices_(vertices), net_(arcs) {
+      : boundary_(boundary), size_(rules.size), kinds_(rules.kinds), vertices_(vertices), net_(arcs) {
     for (const geometry::Loop& loop : boundary.loops)
       rim_.insert(rim_.end(), loop.pieces.begin(), loop.pieces.end());
   }
@@ -76,22 +82,62 @@ private:
 
   Segment segment(LocalIndex e) const { return {net_.edge(e).piece.start, net_.edge(e).piece.end}; }
 
-  /// May the edge lead through the vertex? One of both belongs to a curve and the other one to an interface, and the
-  /// line of the edge does not pass the vertex already.
+  /// May the edge lead through the vertex? One of both belongs to a curve and the other one to an interface or to
+  /// another curve, and the line of the edge does not pass the vertex already.
   bool may_meet(LocalIndex v, LocalIndex e) const {
     const EdgeNet::Edge& edge = net_.edge(e);
     const bool is_curve = edge.is_curve(), is_interface = edge.is_interface();
     if (edge.piece.circular || v == edge.a || v == edge.b || (!is_curve && !is_interface))
       return false;
-    bool is_other = false;
+    bool is_other = false, is_of_curve = false;
     for (const LocalIndex f : net_.around(v)) {
       const EdgeNet::Edge& its = net_.edge(f);
-      if (is_curve ? its.piece.part == edge.piece.part
-                   : std::minmax(its.left, its.right) == std::minmax(edge.left, edge.right))
+      if (is_curve ? its.arc == edge.arc : std::minmax(its.left, its.right) == std::minmax(edge.left, edge.right))
         return false;
-      is_other |= is_curve ? its.left != its.right : its.piece.part >= 0;
+      is_other |= is_curve ? its.left != its.right && its.piece.part != edge.piece.part : its.piece.part >= 0;
+      is_of_curve |= is_curve && may_be_one(its, edge);
     }
-    return is_other;
+    return is_other || (is_of_curve && (is_sliver(v, e) || is_narrow(v, e)));
+  }
+
+  bool is_split(int part) const {
+    return static_cast<std::size_t>(part) < kinds_.size() && kinds_[static_cast<std::size_t>(part)].split;
+  }
+
+  /// May edges of two curves become one edge? A split curve keeps all of its edges.
+  bool may_be_one(const EdgeNet::Edge& one, const EdgeNet::Edge& other) const {
+    return one.is_curve() && other.is_curve() && one.left == other.left &&
+           (one.piece.part == other.piece.part || (!is_split(one.piece.part) && !is_split(other.piece.part)));
+  }
+
+  bool may_join(LocalIndex e, LocalIndex f) const {
+    const EdgeNet::Edge &one = net_.edge(e), &other = net_.edge(f);
+    return one.is_curve() && other.is_curve() ? may_be_one(one, other) && net_.may_join(e, f) : net_.may_join(e, f);
+  }
+
+  /// Do edges lead from the vertex to both ends of the edge?
+  bool is_sliver(LocalIndex v, LocalIndex e) const {
+    return net_.between(v, net_.edge(e).a) >= 0 && net_.between(v, net_.edge(e).b) >= 0;
+  }
+
+  /// Is the way along curves from the vertex to the edge long, compared with their distance?
+  bool is_narrow(LocalIndex v, LocalIndex e) const {
+    const double most = std::sqrt(pair_of(v, e).squared_distance) / narrow_share;
+    std::vector<std::pair<LocalIndex, double>> reached{{v, 0.0}}; // the few vertices on short ways
+    for (std::size_t k = 0; k < reached.size(); ++k) {
+      const auto [from, way] = reached[k];
+      for (const LocalIndex f : net_.around(from)) {
+        const LocalIndex to = net_.edge(f).a == from ? net_.edge(f).b : net_.edge(f).a;
+        const double longer = way + length(net_.place(to) - net_.place(from));
+        const auto is_it = [&](const auto& one) { return one.first == to; };
+        if (longer >= most || std::ranges::any_of(reached, is_it))
+          continue;
+        if (to == net_.edge(e).a || to == net_.edge(e).b || reached.size() == most_steps)
+          return false;
+        reached.emplace_back(to, longer);
+      }
+    }
+    return true;
   }
 
   /// Such pairs within reach, the nearest first: for each vertex with its nearest edges, so that the memory does not
@@ -165,7 +211,7 @@ private:
       part.start = net_.place(end);
       part.end = p;
       const LocalIndex twin = net_.between(end, v);
-      if (twin >= 0 && !net_.may_join(e, twin))
+      if (twin >= 0 && !may_join(e, twin))
         return false;
       for (const std::size_t k : near)
         if (k < rim_.size() ? meet(part, rim_[k]) : meets(part, edges_[k - rim_.size()], e, twin))
@@ -188,6 +234,7 @@ private:
 
   const Boundary& boundary_;
   const sizing::SizeField& size_;
+  const std::span<const geometry::CurveKind> kinds_;
   const VertexTree& vertices_;
   EdgeNet net_;
   std::vector<Piece> rim_;
@@ -196,30 +243,82 @@ private:
   JoinedLines joined_;
 };
 
-bool has_both(const std::vector<InnerArc>& arcs) {
-  return std::ranges::any_of(arcs, [](const InnerArc& arc) { return arc.left != arc.right; }) &&
-         std::ranges::any_of(arcs, [](const InnerArc& arc) { return arc.pieces.front().part >= 0; });
+/// Are there a curve and something that it may follow?
+bool may_follow(const std::vector<InnerArc>& arcs) {
+  return arcs.size() > 1 && std::ranges::any_of(arcs, [](const InnerArc& a) { return a.pieces.front().part >= 0; });
+}
+
+double length_of(const InnerArc& arc) {
+  double sum = 0;
+  for (const Piece& piece : arc.pieces)
+    sum += piece.length();
+  return sum;
+}
+
+/// Is this a curve that two or more other arcs meet at one end and none at the other one?
+/// @param arcs_at the number of ends of open arcs at a place
+bool is_loose_end(const InnerArc& arc, const std::map<std::pair<double, double>, int>& arcs_at) {
+  if (arc.closed || arc.left != arc.right || arc.pieces.front().part < 0)
+    return false;
+  const Vec2 a = arc.pieces.front().start, b = arc.pieces.back().end;
+  const auto [few, many] = std::minmax(arcs_at.at({a.x, a.y}), arcs_at.at({b.x, b.y}));
+  return few == 1 && many > 2;
+}
+
+/// Leaves out short ends of curves beyond other curves and interfaces; the last arc of a curve stays.
+void drop_loose_ends(SnappedArcs& result, const Boundary& boundary, const ArcRules& rules) {
+  std::map<std::pair<double, double>, int> arcs_at, arcs_of;
+  for (const InnerArc& arc : result.arcs) {
+    ++arcs_of[{arc.pieces.front().part, 0}];
+    if (arc.closed)
+      continue;
+    const Vec2 a = arc.pieces.front().start, b = arc.pieces.back().end;
+    ++arcs_at[{a.x, a.y}];
+    ++arcs_at[{b.x, b.y}];
+  }
+  for (const geometry::Loop& loop : boundary.loops) // an end on the boundary is not loose
+    for (const Piece& piece : loop.pieces)
+      if (const auto found = arcs_at.find({piece.start.x, piece.start.y}); found != arcs_at.end())
+        found->second += 2;
+  std::erase_if(result.arcs, [&](const InnerArc& arc) {
+    if (!is_loose_end(arc, arcs_at))
+      return false;
+    const Vec2 a = arc.pieces.front().start, b = arc.pieces.back().end, end = arcs_at.at({a.x, a.y}) == 1 ? a : b;
+    const double longest = GeneraliseRules::node_distance * sizing::checked_size(rules.size, end), its = length_of(arc);
+    int& left = arcs_of.at({arc.pieces.front().part, 0});
+    if (its >= longest || left == 1 || std::ranges::binary_search(rules.corners, end, geometry::lexicographically_less))
+      return false;
+    --left;
+    ++result.joined.loose_ends;
+    result.joined.longest_end = std::fmax(result.joined.longest_end, its);
+    return true;
+  });
 }
 
 } // namespace
 
-SnappedArcs snapped_arcs(const std::vector<InnerArc>& arcs, const Boundary& boundary, const sizing::SizeField& size,
-                         const geometry::Lattice& lattice) {
-  if (!has_both(arcs))
-    return {arcs, {}};
+SnappedArcs snapped_arcs(const std::vector<InnerArc>& arcs, const Boundary& boundary, const ArcRules& rules) {
+  SnappedArcs result{arcs, {}};
+  if (!may_follow(arcs))
+    return result;
+  drop_loose_ends(result, boundary, rules);
   Boundary all = boundary;
-  for (const InnerArc& arc : arcs) {
+  for (const InnerArc& arc : result.arcs) {
     std::vector<Piece>& pieces = all.loops.emplace_back().pieces;
     pieces = arc.pieces;
     Piece& end = pieces.emplace_back();
     end.start = end.end = arc.pieces.back().end;
   }
-  const VertexTree vertices(all, lattice, {});
-  ArcSnapper snapper(arcs, boundary, size, vertices);
+  const VertexTree vertices(all, rules.lattice, {});
+  ArcSnapper snapper(result.arcs, boundary, rules, vertices);
   const JoinedLines joined = snapper.run();
   if (joined.vertices == 0)
-    return {arcs, {}};
-  return {snapper.net().arcs(arcs), joined};
+    return result;
+  result.arcs = snapper.net().arcs(result.arcs);
+  result.joined.vertices = joined.vertices;
+  result.joined.farthest = joined.farthest;
+  result.joined.place = joined.place;
+  return result;
 }
 
 } // namespace trime::generalise

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Joins curves with interfaces that they follow, where both lie nearer to each other than the triangles can show.
+// Joins curves with the interfaces and the curves that they follow, where both lie nearer to each other than the
+// triangles can show.
 #pragma once
 
 #include "trime/geometry/boundary.hpp"
@@ -8,15 +9,18 @@
 #include "trime/sizing/size_field.hpp"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace trime::generalise {
 
 /// Says how often curves and interfaces that follow each other were joined.
 struct JoinedLines {
-  std::int64_t vertices = 0; ///< vertices of one line through which the other one leads
-  double farthest = 0;       ///< largest distance of such a vertex from the other line
-  geometry::Vec2 place{};    ///< where that vertex is
+  std::int64_t vertices = 0;   ///< vertices of one line through which the other one leads
+  double farthest = 0;         ///< largest distance of such a vertex from the other line
+  geometry::Vec2 place{};      ///< where that vertex is
+  std::int64_t loose_ends = 0; ///< ends of curves beyond another curve or an interface that were left out
+  double longest_end = 0;      ///< length of the longest of them
 };
 
 /// Arcs after some of them were joined.
@@ -25,11 +29,22 @@ struct SnappedArcs {
   JoinedLines joined;
 };
 
-/// @brief Joins each curve with the interfaces between regions that it follows. Where a vertex of one of both lies
-/// nearer to an edge of the other than GeneraliseRules::snap_distance h, that edge leads through the vertex. Edges of a
-/// curve and of an interface that have the same ends then become one edge, with the name of the curve and the regions
-/// of the interface. No vertex moves: ends of curves, nodes of interfaces and points that the user asked for stay bit
-/// for bit.
+/// What arcs are joined by.
+struct ArcRules {
+  const sizing::SizeField& size; ///< h
+  const geometry::Lattice& lattice;
+  std::span<const geometry::Vec2> corners{};    ///< places that must stay, in lexicographic order
+  std::span<const geometry::CurveKind> kinds{}; ///< as InnerCurves::kinds
+};
+
+/// @brief Joins each curve with the interfaces between regions, and with the other curves, that it follows. Where a
+/// vertex of one of both lies nearer to an edge of the other than GeneraliseRules::snap_distance h, that edge leads
+/// through the vertex. So the end of a curve just before another one comes to lie on it. Edges of a curve and of an
+/// interface that have the same ends then become one edge, with the name of the curve and the regions of the interface.
+/// Edges of two curves become one with the name of the first curve, unless one of them is split. Curves that meet at
+/// more than about 20 degrees do not follow each other. An end of a curve that reaches beyond another curve or an
+/// interface by less than GeneraliseRules::node_distance h is left out. Other ends of curves, nodes of interfaces and
+/// points that the user asked for stay bit for bit.
 ///
 /// An edge moves only if the triangle over which it moves holds no other vertex, and if its two parts meet no other
 /// curve. So no crossings arise, and each region keeps its neighbours. Edges whose parts lead through further vertices
@@ -39,6 +54,6 @@ struct SnappedArcs {
 /// @param boundary the boundary that is meshed, without periods
 /// @throws GeometryError if a size is not positive and finite
 SnappedArcs snapped_arcs(const std::vector<geometry::InnerArc>& arcs, const geometry::Boundary& boundary,
-                         const sizing::SizeField& size, const geometry::Lattice& lattice);
+                         const ArcRules& rules);
 
 } // namespace trime::generalise

@@ -245,7 +245,8 @@ constexpr int most_rounds = 6;
 Partition simplify_partition(const geometry::InnerCurves& curves, const geometry::Boundary& boundary,
                              const ArcRequest& request, std::span<const std::array<int, 2>> pairs) {
   geometry::InnerCurves joined = curves;
-  SnappedArcs snapped = snapped_arcs(curves.arcs, boundary, request.size, request.lattice);
+  SnappedArcs snapped =
+      snapped_arcs(curves.arcs, boundary, {request.size, request.lattice, request.kept, curves.kinds});
   joined.arcs = std::move(snapped.arcs);
   std::optional<Partition> large = absorb_parts(joined, boundary, request, pairs, SmallParts::faces);
   Partition made = large ? std::move(*large) : Partition{std::move(joined), boundary, false};

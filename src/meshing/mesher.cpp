@@ -253,6 +253,12 @@ void Run::report_boundary() {
         "curves and interfaces that follow each other are one line at {} {}, where they were nearer than "
         "the triangles can show; the largest distance was {:.3g}, at {}; keep_features = true keeps both lines",
         lines.vertices, lines.vertices == 1 ? "vertex" : "vertices", lines.farthest, Place(lines.place, 6));
+  if (const fitting::JoinedLines& lines = scheme_.joined_lines(); lines.loose_ends > 0)
+    run_.log.summary(
+        "{} end{} of curves beyond other curves or interfaces {} left out, because {} shorter than 0.1 h; the "
+        "longest has a length of {:.3g}; keep_features = true keeps all",
+        lines.loose_ends, lines.loose_ends == 1 ? "" : "s", lines.loose_ends == 1 ? "is" : "are",
+        lines.loose_ends == 1 ? "it is" : "they are", lines.longest_end);
   comm::run_agreed(run_.comm, [this] {
     fitting::warn_of_fine_features(stage_, run_.options.min_size.has_value(), run_.log);
     if (run_.fit.gradation && !run_.relative_size.jumps())

@@ -75,7 +75,8 @@ public:
     SegmentGrid grid(segments_of(rings_));
     const std::vector<int> markers = markers_of_segments();
     const SegmentGrid given = markers.empty() ? SegmentGrid{} : grid;
-    const bool keeps_touches = contour_.is_raster && touches_.keep_touches;
+    // Rings of a raster and of united polygons have their area on their left, and meet in vertices only.
+    const bool keeps_touches = touches_.keep_touches && (contour_.is_raster || touches_.dissolve);
     if (const std::vector<SegmentPair> meetings = find_meetings(rings_, grid); !meetings.empty() && !keeps_touches)
       separate(meetings, grid, warnings);
     check_faults();
@@ -92,7 +93,7 @@ public:
         polygon.markers.push_back(markers[at(given.nearest(0.5 * (s.a + s.b)).segment)]);
     polygon.marker_names = contour_.marker_names;
     polygon.notes = std::move(notes);
-    if (!keeps_touches) // the rings of a raster have the cells on their left; where rings touch, nesting is unclear
+    if (!keeps_touches) // where rings touch, nesting is unclear
       orient(polygon);
     messages_.tell_pieces(polygon, rings_, warnings);
     return polygon;

@@ -190,6 +190,22 @@ class Curves(WorkspaceCase):
         finer = self.mesh(section("river", "river.xy"), points=20000)
         self.assertGreater(finer.length(), mesh.length())
 
+    def test_confluences(self):
+        """Tributaries that end just before or beyond a river, and one that follows it for a while."""
+        self.write("rivers.xy", [(0.1, 0.5), (0.9, 0.5)],
+                   [(0.2, 0.502), (0.25, 0.8)],               # ends before the river
+                   [(0.4, 0.498), (0.41, 0.8)],               # beyond it
+                   [(0.5, 0.5), (0.58, 0.503), (0.7, 0.2)],   # crosses it again
+                   [(0.75, 0.506), (0.75, 0.8)])              # stays away by 0.25 h
+        mesh = self.same_on_all(section("river", "rivers.xy"), points=2000)
+        nodes = mesh.nodes()
+        self.assertEqual(nodes[(0.2, 0.502)], 3)
+        self.assertNotIn((0.4, 0.498), nodes)
+        self.assertEqual(nodes[(0.75, 0.506)], 1)
+        self.assertEqual(sorted(Counter(nodes.values()).items()), [(1, 7), (3, 3)])
+        self.assertIn("1 end of curves beyond other curves or interfaces is left out", self.report)
+        self.assertLess(mesh.alpha().max(), 1.5)
+
     def test_sizes(self):
         """Lengths on a curve, and distances to it in a formula."""
         self.write("wall.xy", [(0.3, 0.5), (0.7, 0.5)])

@@ -174,6 +174,23 @@ class RegionMaps(WorkspaceCase):
             f"ncols {columns}\nnrows {rows}\nxllcorner 0\nyllcorner 0\ncellsize {1 / columns!r}\n"
             + "".join(" ".join(map(str, row)) + "\n" for row in cells))
 
+    def test_squares_of_a_map_that_meet_in_corners(self):
+        cells = np.vstack([np.indices((4, 8)).sum(axis=0) % 2 + 1, np.random.default_rng(3).integers(1, 4, (4, 8))])
+        self.write_labels(cells)
+        raster = self.mesh("[shape]\ngeometry = domain\n[region.c]\nfile = cells.asc\n", 1500)
+        x, y = 0.125, 0.125
+        self.write_map([feature(label, [(x * k, y * j), (x * k + x, y * j), (x * k + x, y * j + y), (x * k, y * j + y)])
+                        for label in (1, 2, 3) for j in range(8) for k in range(8) if cells[7 - j, k] == label])
+        polygons = self.same_on_three_ranks(
+            "[shape]\ngeometry = domain\n[region.c]\nfile = map.geojson\nattribute = unit\n", 1500)
+        self.assertNotIn("moved apart", self.report)
+        self.assertEqual(polygons.names, raster.names)
+        for name in ("c.1", "c.2", "c.3"):
+            self.assertAlmostEqual(polygons.area(name), raster.area(name), delta=1e-12)
+        self.assertEqual(polygons.pair_names(), raster.pair_names())
+        self.assertAlmostEqual(polygons.length(), raster.length(), delta=1e-12)
+        self.assertLess(polygons.alpha(), 1.5)
+
     def balance(self, mesh):
         """The area of each region in the mesh, with what it lost and without what it gained, minus its given area."""
         with h5py.File(self.directory / "mesh.h5") as file:

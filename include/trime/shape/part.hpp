@@ -59,7 +59,8 @@ struct TouchOptions {
   double gap = 0; ///< distance between the separated vertices, if the rings leave room for it; at least 1e-12 of the
                   ///< container
   contours::Faults faults = contours::Faults::refuse; ///< what happens with faults of the rings
-  bool keep_touches = false; ///< rings of a raster that meet in vertices stay as they are, since regions may touch
+  /// Rings of a raster, or of united polygons, that meet in vertices stay as they are, since regions may touch.
+  bool keep_touches = false;
   double widest_gap = 0; ///< with `dissolve`: gaps that polygons enclose between them are closed if they are narrower
 };
 
