@@ -48,7 +48,7 @@ def inclusions(rng, count=500, gap=0.004):
             discs.append((x, y, radius))
         if len(discs) == count:
             break
-    turns = [math.pi * k / 12 for k in range(24)]
+    turns = [math.pi * k / 6 for k in range(12)]
     return [("fibre", [(x + r * math.cos(t), y + r * math.sin(t)) for t in turns]) for x, y, r in discs], []
 
 
@@ -87,7 +87,8 @@ def layers(rng, count=6):
 def faults(rng, count=200):
     lines = []
     for _ in range(count):
-        x, y, turn, half = rng.uniform(0.1, 0.9), rng.uniform(0.1, 0.9), rng.uniform(0, math.pi), rng.uniform(0.02, 0.08)
+        x, y = rng.uniform(0.1, 0.9), rng.uniform(0.1, 0.9)
+        turn, half = rng.uniform(0, math.pi), rng.uniform(0.02, 0.08)
         lines.append([(x - half * math.cos(turn), y - half * math.sin(turn)),
                       (x + half * math.cos(turn), y + half * math.sin(turn))])
     return [], lines
