@@ -75,8 +75,7 @@ public:
     SegmentGrid grid(segments_of(rings_));
     const std::vector<int> markers = markers_of_segments();
     const SegmentGrid given = markers.empty() ? SegmentGrid{} : grid;
-    // Rings of a raster and of united polygons have their area on their left, and meet in vertices only.
-    const bool keeps_touches = touches_.keep_touches && (contour_.is_raster || touches_.dissolve);
+    const bool keeps_touches = touches_.keep_touches && (contour_.is_raster || touches_.dissolve); // area on the left
     if (const std::vector<SegmentPair> meetings = find_meetings(rings_, grid); !meetings.empty() && !keeps_touches)
       separate(meetings, grid, warnings);
     check_faults();
