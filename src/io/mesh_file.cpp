@@ -2,6 +2,8 @@
 #include "trime/io/mesh_file.hpp"
 
 #include "comm/agree.hpp"
+#include "io/extra_arrays.hpp"
+#include "io/extra_group.hpp"
 #include "io/labelled_lines.hpp"
 #include "io/slab_file.hpp"
 #include "io/temporary_file.hpp"
@@ -299,12 +301,11 @@ std::int64_t file_bytes(const MeshFileOptions& options, const mesh::DistributedM
 }
 
 /// Returns the number of labelled edges.
-std::int64_t write_hdf5(const std::string& path, const MeshFileOptions& options, const mesh::DistributedMesh& mesh,
+std::int64_t write_hdf5(SlabFile& file, const MeshFileOptions& options, const mesh::DistributedMesh& mesh,
                         const Metadata& metadata, const comm::Communicator& comm) {
   const auto markers = facet_markers(options, mesh);
   const std::size_t parts = options.part_markers.size(), curves = curve_names(metadata).size();
   const LabelledLines lines = has_inner_edges(mesh) ? labelled_lines(mesh, parts, curves, comm) : LabelledLines{};
-  SlabFile file(comm, path, file_bytes(options, mesh, metadata));
   file.group("/Mesh");
   if (options.vtkhdf)
     write_vtkhdf(file, mesh);
@@ -319,8 +320,6 @@ std::int64_t write_hdf5(const std::string& path, const MeshFileOptions& options,
   write_splits(file, mesh);
   write_metadata(file, metadata);
   write_ranks(file, mesh, comm);
-  file.verify();
-  file.close();
   return has_inner_edges(mesh) ? lines.slab.total : mesh.facet_slab.total;
 }
 
@@ -390,6 +389,12 @@ std::string field_group(const MeshFileOptions& options, const char* name) {
 
 WrittenFiles write_mesh(const MeshFileOptions& options, const mesh::DistributedMesh& mesh, const Metadata& metadata,
                         const comm::Communicator& comm) {
+  return write_mesh_and({}, options, mesh, metadata, comm);
+}
+
+WrittenFiles write_mesh_and(const std::vector<ExtraGroup>& groups, const MeshFileOptions& options,
+                            const mesh::DistributedMesh& mesh, const Metadata& metadata,
+                            const comm::Communicator& comm) {
   check_shapes(mesh);
   const Metadata of_root = broadcast(metadata, comm);
   const std::string path = comm.broadcast(temporary_name(options.path(".h5")));
@@ -398,7 +403,17 @@ WrittenFiles write_mesh(const MeshFileOptions& options, const mesh::DistributedM
     if (comm.is_root())
       temporary.emplace(path, options.run_files);
   });
-  const std::int64_t lines = write_hdf5(path, options, mesh, of_root, comm);
+  std::int64_t bytes = file_bytes(options, mesh, of_root), lines = 0;
+  for (const ExtraGroup& group : groups)
+    bytes += group.bytes() + group.bytes() / 16;
+  {
+    SlabFile file(comm, path, bytes);
+    lines = write_hdf5(file, options, mesh, of_root, comm);
+    for (const ExtraGroup& group : groups)
+      write_group(file, group);
+    file.verify();
+    file.close();
+  }
   const XdmfContent content{options.name + ".h5",
                             field_group(options, "CellData"),
                             field_group(options, "PointData"),

@@ -139,9 +139,14 @@ void bind_mesh(py::module_& module) {
       .def_property_readonly("quality", quality_of)
       .def_property_readonly("names", names_of)
       .def("write", write)
-      .def("local", [](const Mesh& mesh) {
+      .def("local",
+           [](const Mesh& mesh) {
+             const py::gil_scoped_release others_may_run;
+             return std::make_unique<LocalMesh>(mesh.local());
+           })
+      .def("cells", [](const Mesh& mesh) {
         const py::gil_scoped_release others_may_run;
-        return std::make_unique<LocalMesh>(mesh.local());
+        return std::make_unique<LocalCells>(mesh.cells());
       });
   module.def("make_mesh", make);
   module.def("read_mesh", [](const py::object& comm, const std::string& path) {
