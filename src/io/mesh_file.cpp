@@ -300,12 +300,28 @@ std::int64_t file_bytes(const MeshFileOptions& options, const mesh::DistributedM
   return bytes + bytes / 16; // alignment of large arrays
 }
 
+/// What the file holds.
+struct FileContent {
+  const MeshFileOptions& options;
+  const mesh::DistributedMesh& mesh;
+  const Metadata& metadata;
+  const std::vector<ExtraGroup>& groups;
+
+  std::int64_t bytes() const {
+    std::int64_t sum = file_bytes(options, mesh, metadata);
+    for (const ExtraGroup& group : groups)
+      sum += group.bytes() + group.bytes() / 16;
+    return sum;
+  }
+};
+
 /// Returns the number of labelled edges.
-std::int64_t write_hdf5(SlabFile& file, const MeshFileOptions& options, const mesh::DistributedMesh& mesh,
-                        const Metadata& metadata, const comm::Communicator& comm) {
+std::int64_t write_hdf5(const std::string& path, const FileContent& content, const comm::Communicator& comm) {
+  const auto& [options, mesh, metadata, groups] = content;
   const auto markers = facet_markers(options, mesh);
   const std::size_t parts = options.part_markers.size(), curves = curve_names(metadata).size();
   const LabelledLines lines = has_inner_edges(mesh) ? labelled_lines(mesh, parts, curves, comm) : LabelledLines{};
+  SlabFile file(comm, path, content.bytes());
   file.group("/Mesh");
   if (options.vtkhdf)
     write_vtkhdf(file, mesh);
@@ -318,8 +334,12 @@ std::int64_t write_hdf5(SlabFile& file, const MeshFileOptions& options, const me
   if (has_inner_edges(mesh))
     write_lines(file, lines);
   write_splits(file, mesh);
+  for (const ExtraGroup& group : groups)
+    write_group(file, group);
   write_metadata(file, metadata);
   write_ranks(file, mesh, comm);
+  file.verify();
+  file.close();
   return has_inner_edges(mesh) ? lines.slab.total : mesh.facet_slab.total;
 }
 
@@ -403,17 +423,7 @@ WrittenFiles write_mesh_and(const std::vector<ExtraGroup>& groups, const MeshFil
     if (comm.is_root())
       temporary.emplace(path, options.run_files);
   });
-  std::int64_t bytes = file_bytes(options, mesh, of_root), lines = 0;
-  for (const ExtraGroup& group : groups)
-    bytes += group.bytes() + group.bytes() / 16;
-  {
-    SlabFile file(comm, path, bytes);
-    lines = write_hdf5(file, options, mesh, of_root, comm);
-    for (const ExtraGroup& group : groups)
-      write_group(file, group);
-    file.verify();
-    file.close();
-  }
+  const std::int64_t lines = write_hdf5(path, {options, mesh, of_root, groups}, comm);
   const XdmfContent content{options.name + ".h5",
                             field_group(options, "CellData"),
                             field_group(options, "PointData"),
