@@ -21,7 +21,7 @@ public:
   /// @pre cells and made outlive this object
   FaceList(const Cells& cells, LocalCells& made) : cells_(cells), made_(made) {}
 
-  /// Adds the neighbours of a site, and the faces of which it is the first cell. Sites come in ascending order.
+  /// Adds the neighbours of a site, and the faces whose first cell is that of the site. Sites come in ascending order.
   void add(LocalIndex site, const Surroundings& around, const SeenVertices& seen);
   /// Adds the faces whose first cell belongs to another rank. Comes last.
   void add_those_of_others();

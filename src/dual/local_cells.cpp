@@ -120,8 +120,8 @@ public:
     if (found == order_.end() || mesh_.facets[at(*found)] != ends)
       throw FileError(fmt::format(
           "the edge between the points {} and {} at ({:.9g}, {:.9g}) has a triangle on one side only: expected it "
-          "among the boundary edges of the mesh, and did not find it there; Voronoi cells need a local mesh with "
-          "Overlap::triangles, and a mesh that has passed its checks",
+          "among the boundary edges, and did not find it there. Use a local mesh with Overlap::triangles, and a mesh "
+          "that has passed its checks",
           mesh_.global_id(first), mesh_.global_id(second), mesh_.points[at(first)].x, mesh_.points[at(first)].y));
     return *found;
   }

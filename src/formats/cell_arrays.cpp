@@ -61,7 +61,7 @@ struct Counted {
 
 using Shared = std::shared_ptr<const Counted>;
 
-/// Returns rows of which append(site, around, list) makes all that belong to a site.
+/// Returns rows. append(site, around, list) makes those that belong to a site.
 template <class Row, class Append>
 io::ExtraRows rows_of_sites(const Shared& counted, Counted::Kind kind, const Append& append) {
   return {counted->first[kind], counted->before[kind].back(),
@@ -147,7 +147,6 @@ io::ExtraArray first_corners(const Shared& counted, bool is_root) {
 
 void add_polygons(const Shared& counted, bool is_root, io::ExtraGroup& group) {
   using enum io::ValueType;
-  const std::int64_t parts = counted->totals[Counted::parts];
   group.arrays.push_back(vertex_array(counted));
   group.arrays.push_back(first_corners(counted, is_root));
   group.arrays.push_back(
@@ -161,6 +160,11 @@ void add_polygons(const Shared& counted, bool is_root, io::ExtraGroup& group) {
                                     for (const dual::CellCorner& corner : counted->vertices.corners(around, site, part))
                                       rows.push_back(corner.vertex);
                                 })}});
+}
+
+void add_values(const Shared& counted, io::ExtraGroup& group) {
+  using enum io::ValueType;
+  const std::int64_t parts = counted->totals[Counted::parts];
   group.arrays.push_back(
       {"sites",
        int64,
@@ -237,6 +241,7 @@ io::ExtraGroup cell_arrays(const mesh::DistributedMesh& mesh, Vec2 period, const
   const auto counted = std::make_shared<const Counted>(mesh, period, comm);
   io::ExtraGroup group{"/Cells", {{"cells", mesh.point_slab.total}, {"parts", counted->totals[Counted::parts]}}, {}};
   add_polygons(counted, comm.is_root(), group);
+  add_values(counted, group);
   add_faces(counted, group);
   return group;
 }

@@ -22,7 +22,7 @@ constexpr std::int64_t bytes_of(ValueType type) {
   return type == ValueType::int32 ? 4 : 8;
 }
 
-/// A contiguous range of rows of an array, of which each rank has a contiguous part.
+/// A contiguous range of rows of an array. Each rank has a contiguous part of it.
 struct ExtraRows {
   std::int64_t first = 0; ///< number of this rank's first row in the whole array
   std::int64_t rows = 0;  ///< on this rank

@@ -300,7 +300,7 @@ std::int64_t file_bytes(const MeshFileOptions& options, const mesh::DistributedM
   return bytes + bytes / 16; // alignment of large arrays
 }
 
-/// What the file holds.
+/// Keeps references to all that the file holds.
 struct FileContent {
   const MeshFileOptions& options;
   const mesh::DistributedMesh& mesh;

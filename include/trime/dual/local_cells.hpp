@@ -48,8 +48,8 @@ struct LocalCells {
   std::vector<std::int64_t> part_corner_first; ///< [parts + 1]
   std::vector<LocalIndex> part_corners;        ///< indices into vertices, counter-clockwise
 
-  // Arrays with one entry for each face between two cells, at least one of which this rank has: there is one for each
-  // edge of the mesh, also for those on the boundary. A rank owns the face if it owns its first cell.
+  // Arrays with one entry for each face between a cell of this rank and another cell: there is one for each edge of the
+  // mesh that ends at an owned point, also for edges on the boundary. A rank owns the face if it owns its first cell.
   std::vector<std::array<LocalIndex, 2>> faces; ///< the two cells (local points), the lower global id first
   std::vector<geometry::Vec2> face_arms; ///< vector from the site of the first cell to that of the second: normal to
                                          ///< the face; its length is the primal length
