@@ -46,10 +46,10 @@ ARROWS = {
     "record": ["comm", "geometry", "mesh", "shape", "polygon", "boundary", "sweep", "meshing", "io"],
     "formats": ["comm", "geometry", "mesh", "dual", "projection", "io"],
     "handover": ["comm", "geometry", "mesh"],
-    "dual": ["comm", "mesh"],
+    "dual": ["comm", "geometry", "mesh", "handover"],
     "facade": ["comm", "geometry", "contours", "tracing", "shape", "sizing", "boundary", "sweep", "mesh", "meshing",
-               "io", "record", "formats", "handover"],
-    "python": ["comm", "geometry", "sizing", "facade"],
+               "io", "record", "formats", "handover", "dual"],
+    "python": ["comm", "geometry", "sizing", "dual", "facade"],
     "app": ["comm", "geometry", "contours", "tracing", "shape", "projection", "fields", "sizing", "polygon", "boundary",
             "sites", "fitting", "meshing", "refinement", "io", "checkpoint", "record", "formats"],
 }

@@ -17,7 +17,7 @@ constexpr const char* help =
     R"(trime_check FILE.h5 [CONFIG]
 
 Recomputes from a mesh file of trime_mpi all that it promises: triangles, Delaunay edges, boundary loops, area, tags,
-regions, quality, hash, tables, the stored checks, and the mesh against the shape. One line a check: expected, found, first wrong place.
+regions, Voronoi cells, quality, hash, tables, the stored checks, and the mesh against the shape. One line a check: expected, found, first wrong place.
 
   FILE.h5   a mesh that trime_mpi has written
   CONFIG    the shape is that of this config; without it, of the one that is stored in the file
@@ -41,6 +41,7 @@ void check_all(const trime_check::StoredFile& file, const trime_check::Mesh& mes
   trime_check::check_lines(file, mesh, report);
   trime_check::check_regions(file, mesh, report);
   trime_check::check_losses(file, mesh, report);
+  trime_check::check_cells(file, mesh, report);
   trime_check::check_summary(file, {mesh, counted}, {whole, of_whole}, report);
   trime_check::check_tables(file, mesh, counted, report);
   trime_check::check_shape(file, whole, config, report);

@@ -78,6 +78,12 @@ struct Cells {
 /// @note Collective; sparse exchanges. The cells do not depend on the number of ranks.
 Cells make_cells(const mesh::DistributedMesh& mesh, geometry::Vec2 period, const comm::Communicator& comm);
 
+/// @brief Finds the triangles around each site: sets fan_first, fans and closed.
+/// @throws FileError on all ranks if the triangles around a site are not one fan
+/// @pre points, site_count and triangles are set; all triangles at a site are there
+/// @note Collective.
+void find_fans(Cells& cells, const comm::Communicator& comm);
+
 /// Returns the circumcentre of a triangle of this rank's slab of the mesh.
 geometry::Vec2 slab_centre(const mesh::DistributedMesh& mesh, const Cells& cells, std::size_t triangle);
 

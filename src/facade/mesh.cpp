@@ -13,6 +13,7 @@
 #include "trime/core/error.hpp"
 #include "trime/core/log.hpp"
 #include "trime/core/timer.hpp"
+#include "trime/dual/local_cells.hpp"
 #include "trime/formats/exchange.hpp"
 #include "trime/handover/local_mesh.hpp"
 #include "trime/io/mesh_file.hpp"
@@ -305,6 +306,12 @@ geometry::Vec2 Mesh::periods() const {
 LocalMesh Mesh::local(handover::Overlap overlap) const {
   check_running();
   return {handover::make_local_mesh(communicator(), result().mesh, overlap), names(), implementation_->communicator};
+}
+
+LocalCells Mesh::cells() const {
+  LocalMesh mesh = local();
+  dual::LocalCells cells = dual::make_local_cells(communicator(), mesh.arrays(), periods());
+  return {std::move(mesh), std::move(cells)};
 }
 
 void Mesh::write(const std::string& path, const WriteOptions& options) const {

@@ -36,6 +36,8 @@ constexpr FormatInfo table[] = {
     {Format::geojson, "geojson", ".geojson", false, true, plan_geojson},
     {Format::abaqus, "abaqus", ".inp", false, false, plan_abaqus},
     {Format::exodus, "exodus", ".exo", false, true, plan_exodus},
+    {Format::ugrid, "ugrid", ".nc", false, true, plan_ugrid},
+    {Format::ugrid_cells, "ugrid_cells", "_cells.nc", false, true, plan_ugrid_cells},
 };
 
 /// Numbers of MSH 2.2 have 32 bits, as have those of most programs that read the text formats.

@@ -122,5 +122,7 @@ std::vector<FilePlan> plan_telemac(const ExchangeMesh& mesh, const std::string& 
 std::vector<FilePlan> plan_geojson(const ExchangeMesh& mesh, const std::string& path);
 std::vector<FilePlan> plan_abaqus(const ExchangeMesh& mesh, const std::string& path);
 std::vector<FilePlan> plan_exodus(const ExchangeMesh& mesh, const std::string& path);
+std::vector<FilePlan> plan_ugrid(const ExchangeMesh& mesh, const std::string& path);
+std::vector<FilePlan> plan_ugrid_cells(const ExchangeMesh& mesh, const std::string& path);
 
 } // namespace trime::formats

@@ -2,7 +2,9 @@
 #include "formats/mesh_series.hpp"
 
 #include "comm/agree.hpp"
+#include "formats/cell_arrays.hpp"
 #include "formats/output_files.hpp"
+#include "io/extra_arrays.hpp"
 #include "io/temporary_file.hpp"
 #include "io/xdmf.hpp"
 #include "trime/core/error.hpp"
@@ -166,11 +168,24 @@ io::WrittenFiles MeshSeries::write_final(const SeriesMesh& mesh) {
   return written;
 }
 
+/// Returns the Voronoi cells if the file is to have them. If they cannot be made, the mesh is written without them, and
+/// the format that needs them says why.
+std::vector<io::ExtraGroup> MeshSeries::extra_groups(const mesh::DistributedMesh& mesh) const {
+  if (!options_.wants(Format::voronoi) || mesh.triangle_slab.total == 0)
+    return {};
+  try { // what is thrown is the same on all ranks
+    return {cell_arrays(mesh, options_.names.period, comm_)};
+  } catch (const FileError&) {
+    return {};
+  }
+}
+
 io::WrittenFiles MeshSeries::write(const SeriesMesh& mesh, const std::string& name, const std::string& label) {
   io::MeshFileOptions file = options_.file;
   file.name = name;
   file.is_final = label == final_label;
-  const io::WrittenFiles written = io::write_mesh(file, mesh.mesh, mesh.metadata, comm_);
+  const io::WrittenFiles written = io::write_mesh_and(
+      file.is_final ? extra_groups(mesh.mesh) : std::vector<io::ExtraGroup>{}, file, mesh.mesh, mesh.metadata, comm_);
   const bool first = !is_cleared_;
   is_cleared_ = true;
   members_.push_back(

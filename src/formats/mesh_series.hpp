@@ -4,6 +4,7 @@
 #pragma once
 
 #include "formats/text_mesh.hpp"
+#include "io/extra_arrays.hpp"
 #include "trime/comm/communicator.hpp"
 #include "trime/formats/exchange.hpp"
 #include "trime/io/mesh_file.hpp"
@@ -83,6 +84,7 @@ private:
     TextQuality quality;
   };
 
+  std::vector<io::ExtraGroup> extra_groups(const mesh::DistributedMesh& mesh) const;
   io::WrittenFiles write(const SeriesMesh& mesh, const std::string& name, const std::string& label);
   void remove_stale(const std::vector<std::string>& written) const;
   std::vector<std::string> write_collections() const;

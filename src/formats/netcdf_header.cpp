@@ -100,6 +100,10 @@ void NetcdfHeader::append_attributes(std::string& text, const std::vector<Netcdf
       append_big(text, static_cast<std::int32_t>(NetcdfType::int32));
       append_count(text, 1);
       append_big(text, *number);
+    } else if (const auto* id = std::get_if<std::int64_t>(&value)) {
+      append_big(text, static_cast<std::int32_t>(NetcdfType::int64));
+      append_count(text, 1);
+      append_big(text, *id);
     } else {
       append_big(text, static_cast<std::int32_t>(NetcdfType::float32));
       append_count(text, 1);

@@ -2,6 +2,8 @@
 #include "trime/io/mesh_file.hpp"
 
 #include "comm/agree.hpp"
+#include "io/extra_arrays.hpp"
+#include "io/extra_group.hpp"
 #include "io/labelled_lines.hpp"
 #include "io/slab_file.hpp"
 #include "io/temporary_file.hpp"
@@ -298,13 +300,28 @@ std::int64_t file_bytes(const MeshFileOptions& options, const mesh::DistributedM
   return bytes + bytes / 16; // alignment of large arrays
 }
 
+/// Keeps references to all that the file holds.
+struct FileContent {
+  const MeshFileOptions& options;
+  const mesh::DistributedMesh& mesh;
+  const Metadata& metadata;
+  const std::vector<ExtraGroup>& groups;
+
+  std::int64_t bytes() const {
+    std::int64_t sum = file_bytes(options, mesh, metadata);
+    for (const ExtraGroup& group : groups)
+      sum += group.bytes() + group.bytes() / 16;
+    return sum;
+  }
+};
+
 /// Returns the number of labelled edges.
-std::int64_t write_hdf5(const std::string& path, const MeshFileOptions& options, const mesh::DistributedMesh& mesh,
-                        const Metadata& metadata, const comm::Communicator& comm) {
+std::int64_t write_hdf5(const std::string& path, const FileContent& content, const comm::Communicator& comm) {
+  const auto& [options, mesh, metadata, groups] = content;
   const auto markers = facet_markers(options, mesh);
   const std::size_t parts = options.part_markers.size(), curves = curve_names(metadata).size();
   const LabelledLines lines = has_inner_edges(mesh) ? labelled_lines(mesh, parts, curves, comm) : LabelledLines{};
-  SlabFile file(comm, path, file_bytes(options, mesh, metadata));
+  SlabFile file(comm, path, content.bytes());
   file.group("/Mesh");
   if (options.vtkhdf)
     write_vtkhdf(file, mesh);
@@ -317,6 +334,8 @@ std::int64_t write_hdf5(const std::string& path, const MeshFileOptions& options,
   if (has_inner_edges(mesh))
     write_lines(file, lines);
   write_splits(file, mesh);
+  for (const ExtraGroup& group : groups)
+    write_group(file, group);
   write_metadata(file, metadata);
   write_ranks(file, mesh, comm);
   file.verify();
@@ -390,6 +409,12 @@ std::string field_group(const MeshFileOptions& options, const char* name) {
 
 WrittenFiles write_mesh(const MeshFileOptions& options, const mesh::DistributedMesh& mesh, const Metadata& metadata,
                         const comm::Communicator& comm) {
+  return write_mesh_and({}, options, mesh, metadata, comm);
+}
+
+WrittenFiles write_mesh_and(const std::vector<ExtraGroup>& groups, const MeshFileOptions& options,
+                            const mesh::DistributedMesh& mesh, const Metadata& metadata,
+                            const comm::Communicator& comm) {
   check_shapes(mesh);
   const Metadata of_root = broadcast(metadata, comm);
   const std::string path = comm.broadcast(temporary_name(options.path(".h5")));
@@ -398,7 +423,7 @@ WrittenFiles write_mesh(const MeshFileOptions& options, const mesh::DistributedM
     if (comm.is_root())
       temporary.emplace(path, options.run_files);
   });
-  const std::int64_t lines = write_hdf5(path, options, mesh, of_root, comm);
+  const std::int64_t lines = write_hdf5(path, {options, mesh, of_root, groups}, comm);
   const XdmfContent content{options.name + ".h5",
                             field_group(options, "CellData"),
                             field_group(options, "PointData"),

@@ -251,6 +251,18 @@ void SlabFile::slab(SlabArray array) {
   written_.push_back({std::move(array), std::move(dataset)});
 }
 
+void SlabFile::more_rows(SlabArray array) {
+  std::string opening;
+  agreed([&] {
+    opening = action("open", array.path);
+    written_.reserve(written_.size() + 1);
+  });
+  Hdf5Dataset dataset(H5Dopen2(file_, array.path.c_str(), H5P_DEFAULT));
+  agree_on(dataset, opening);
+  write_slices(dataset, array);
+  written_.push_back({std::move(array), std::move(dataset)});
+}
+
 /// For the longest slice of this rank. HDF5 wants a buffer for no rows, too.
 void SlabFile::make_room(hid_t dataset, const SlabArray& array) {
   const haddr_t begin = H5Dget_offset(dataset);

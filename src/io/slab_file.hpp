@@ -57,6 +57,8 @@ public:
   void text(const std::string& path, const std::string& text);
   /// Writes an array. Keeps the dataset open, and a copy of the array's description, for verify().
   void slab(SlabArray array);
+  /// Writes more rows of an array that slab() has made, with the same number of rows over all ranks.
+  void more_rows(SlabArray array);
   /// Flushes the file, reads every slab back, and compares each byte with the data of its rank. Must be called once,
   /// after all slabs.
   void verify();

@@ -20,5 +20,6 @@ std::vector<geometry::Vec2> places_of(const Places& array, const char* what);
 void bind_shapes(pybind11::module_& module);
 void bind_mesh(pybind11::module_& module);
 void bind_local_mesh(pybind11::module_& module);
+void bind_local_cells(pybind11::module_& module);
 
 } // namespace trime::python

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bindings.hpp"
+#include "shown.hpp"
 #include "trime/facade/mesh.hpp"
 
 #include <fmt/format.h>
@@ -14,28 +15,6 @@ namespace py = pybind11;
 
 namespace trime::python {
 namespace {
-
-/// Returns a NumPy array that shows the memory of a vector, which `owner` keeps. It cannot be written.
-template <class Value>
-py::array shown(const Value* data, std::vector<py::ssize_t> shape, const py::object& owner) {
-  py::array array(py::dtype::of<Value>(), std::move(shape), {}, data, owner);
-  array.attr("setflags")(py::arg("write") = false);
-  return array;
-}
-
-template <class Value>
-py::array shown(const std::vector<Value>& values, const py::object& owner) {
-  return shown(values.data(), {std::ssize(values)}, owner);
-}
-template <class Value, std::size_t n>
-py::array shown(const std::vector<std::array<Value, n>>& values, const py::object& owner) {
-  static_assert(sizeof(std::array<Value, n>) == n * sizeof(Value));
-  return shown(values.empty() ? nullptr : values.front().data(), {std::ssize(values), py::ssize_t{n}}, owner);
-}
-py::array shown(const std::vector<Vec2>& values, const py::object& owner) {
-  static_assert(sizeof(Vec2) == 2 * sizeof(double));
-  return shown(values.empty() ? nullptr : &values.front().x, {std::ssize(values), py::ssize_t{2}}, owner);
-}
 
 template <class Array>
 auto array_of(Array handover::LocalMesh::*member) {
@@ -136,4 +115,5 @@ PYBIND11_MODULE(_parallel, module) {
   trime::python::bind_shapes(module);
   trime::python::bind_mesh(module);
   trime::python::bind_local_mesh(module);
+  trime::python::bind_local_cells(module);
 }

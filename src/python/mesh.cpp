@@ -102,6 +102,15 @@ void write(const Mesh& mesh, const std::string& path, bool overwrite, bool vtkhd
   mesh.write(path, {overwrite, vtkhdf, xdmf});
 }
 
+std::unique_ptr<LocalMesh> local_of(const Mesh& mesh) {
+  const py::gil_scoped_release others_may_run;
+  return std::make_unique<LocalMesh>(mesh.local());
+}
+std::unique_ptr<LocalCells> cells_of(const Mesh& mesh) {
+  const py::gil_scoped_release others_may_run;
+  return std::make_unique<LocalCells>(mesh.cells());
+}
+
 py::dict names_of(const Mesh& mesh) {
   const MeshNames names = mesh.names();
   py::dict values;
@@ -139,10 +148,8 @@ void bind_mesh(py::module_& module) {
       .def_property_readonly("quality", quality_of)
       .def_property_readonly("names", names_of)
       .def("write", write)
-      .def("local", [](const Mesh& mesh) {
-        const py::gil_scoped_release others_may_run;
-        return std::make_unique<LocalMesh>(mesh.local());
-      });
+      .def("local", local_of)
+      .def("cells", cells_of);
   module.def("make_mesh", make);
   module.def("read_mesh", [](const py::object& comm, const std::string& path) {
     const MPI_Comm handle = communicator_of(comm);

@@ -50,6 +50,32 @@ def check_arrays(mesh):
     }
 
 
+def check_cells(mesh):
+    """What must hold of the Voronoi cells, by name."""
+    cells, owned = mesh.cells(), mesh.owned_points
+    triangles = mesh.triangles[:mesh.owned_triangles]
+    sides = mesh.points[triangles[:, 1:]] - mesh.points[triangles[:, :1]]
+    area = comm.allreduce(0.5 * np.cross(sides[:, 0], sides[:, 1]).sum())
+    areas = cells.areas.copy()
+    areas[owned:] = -1
+    mesh.update_ghosts(areas)
+    x, y = cells.polygon(0).T
+    first = 0.5 * (x @ np.roll(y, -1) - y @ np.roll(x, -1))
+    edges = comm.allreduce(cells.owned_faces)
+    rows = np.repeat(np.arange(owned), np.diff(cells.neighbour_first))
+    pairs = np.sort(mesh.global_ids[cells.faces[cells.neighbour_faces]], axis=1)
+    return {
+        "cell areas": abs(comm.allreduce(cells.areas[:owned].sum()) - area) < 1e-12 * area,
+        "cell ghosts": np.array_equal(areas, cells.areas),
+        "cell polygon": abs(first - cells.areas[0]) < 1e-9 * first,
+        "cell Euler": mesh.total_points - edges + mesh.total_triangles == 0,  # one hole
+        "cell faces": np.array_equal(pairs, np.sort(mesh.global_ids[np.stack([rows, cells.neighbours], 1)], axis=1)),
+        "cell lengths": cells.face_lengths.min() > -1e-15 and cells.face_lengths.shape == cells.faces.shape,
+        "cell views": not (cells.areas.flags.owndata or cells.areas.flags.writeable) and cells.owned_cells == owned,
+        "cell chords": len(cells.chord_cells) == 2 * (mesh.boundary[:owned] != 0).sum(),
+    }
+
+
 def check_lifetime():
     """Do arrays keep the memory that they show?"""
     points = parallel.mesh(comm, PLATE, points=300).points
@@ -112,6 +138,7 @@ def main(directory):
     plain = parallel.mesh(comm, PLATE, points=2000)
     found["uniform"] = plain.hash
     found["arrays"] = {name: agreed(holds) for name, holds in check_arrays(plain).items()}
+    found["arrays"] |= {name: agreed(holds) for name, holds in check_cells(plain).items()}
     found["arrays"]["lifetime"] = agreed(check_lifetime())
     found["formula"] = parallel.mesh(comm, PLATE, points=2000, size="1 + 3*x*x + y").hash
     graded = parallel.mesh(comm, PLATE, points=2000, size=holes)

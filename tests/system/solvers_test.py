@@ -62,6 +62,14 @@ class Materials(unittest.TestCase):
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
             self.assertIn("an interface of length 0.5;", done.stdout)
 
+    def test_finite_volumes_are_exact_at_every_site(self):
+        for ranks in (1, 3):
+            start = [] if ranks == 1 else [MPIEXEC, "-np", str(ranks)]
+            done = subprocess.run([*start, str(EXAMPLES / "09_finite_volumes"), "1000"], env=environment(1),
+                                  capture_output=True, text=True, timeout=120, check=False)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            self.assertIn("cells with the area 1;", done.stdout)
+
 
 class EdgeCut(unittest.TestCase):
     def test_parts_are_nearly_as_compact_as_those_of_partitioners(self):

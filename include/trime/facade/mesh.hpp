@@ -6,6 +6,7 @@
 #include "trime/boundary/features.hpp"
 #include "trime/comm/from_mpi.hpp"
 #include "trime/core/types.hpp"
+#include "trime/dual/local_cells.hpp"
 #include "trime/facade/shape.hpp"
 #include "trime/facade/size.hpp"
 #include "trime/handover/local_mesh.hpp"
@@ -103,6 +104,22 @@ private:
   std::shared_ptr<const comm::Communicator> communicator_; ///< shared with the Mesh, which may be destroyed earlier
 };
 
+/// @brief The Voronoi cells of the points of one rank, for finite volumes: dual::LocalCells together with the part of
+/// the mesh to which their numbers refer. Move-only; may outlive the Mesh from which it was made.
+class LocalCells {
+public:
+  LocalCells(LocalMesh mesh, dual::LocalCells arrays) : mesh_(std::move(mesh)), arrays_(std::move(arrays)) {}
+
+  /// The points, ghosts, triangles and boundary edges; cell i is that of its local point i.
+  const LocalMesh& mesh() const { return mesh_; }
+  /// All arrays of the cells: polygons, areas, centroids, faces and their lengths, neighbours, chords.
+  const dual::LocalCells& arrays() const { return arrays_; }
+
+private:
+  LocalMesh mesh_;
+  dual::LocalCells arrays_;
+};
+
 class Log;
 namespace meshing {
 struct MeshResult;
@@ -180,6 +197,12 @@ public:
   /// of values. See handover::make_local_mesh for cost and memory. The result does not need this Mesh afterwards.
   /// @note Collective.
   LocalMesh local(handover::Overlap overlap = handover::Overlap::triangles) const;
+
+  /// @brief Returns the Voronoi cells of the points that this rank owns, with the faces between them and the cells of
+  /// other ranks. See dual::make_local_cells for cost and memory. The result does not need this Mesh afterwards.
+  /// @throws FileError on all ranks if a point has no cell, which can only be in a damaged file
+  /// @note Collective.
+  LocalCells cells() const;
 
   /// @brief Writes the mesh. With the ending `.h5` this is the file that `trime_mpi` writes for the same shape and
   /// options; with `.msh`, `.vtu`, `.mesh` and other endings it is a file for another program, see

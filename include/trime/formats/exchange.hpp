@@ -23,7 +23,7 @@ struct FilePlan;
 /// The output formats. vtkhdf and xdmf describe the arrays of NAME.h5 for other readers, and text has the files of
 /// TriMe++. The formats gmsh, gmsh2 and sms are MSH 4.1, MSH 2.2 and .2dm; schism is hgrid.gr3, and telemac is Selafin
 /// with its boundary conditions. The formats voronoi, disv (MODFLOW 6) and uge (PFLOTRAN) have the Voronoi cells of the
-/// points, not the triangles.
+/// points, not the triangles. The faces of ugrid are triangles, and those of ugrid_cells the cells.
 enum class Format {
   vtkhdf,
   xdmf,
@@ -44,7 +44,9 @@ enum class Format {
   su2,
   geojson,
   abaqus,
-  exodus
+  exodus,
+  ugrid,
+  ugrid_cells
 };
 
 /// One row of the table of formats. Config, --help, `trime_mpi convert` and the output of a run take all facts about a

@@ -216,6 +216,10 @@ class Mesh:
         """Adds the values of ghosts to those at their owners, in place. Collective."""
         self._local.add_to_owners(values)
 
+    def cells(self):
+        """Returns the Voronoi cells of the points of this rank as Cells, for finite volumes. Collective."""
+        return Cells(self._native.cells())
+
     def write(self, path, overwrite=False, vtkhdf=True, xdmf=True):
         """Writes the whole mesh to a file: `.h5`, or the ending of another format, see configs/formats.md.
         Collective."""
@@ -232,3 +236,43 @@ class Mesh:
         "shared_facet".
         """
         return dolfinx_of(self, ghost_mode)
+
+
+class Cells:
+    """The Voronoi cells of the points of one rank's part of a mesh. Cell i is that of local point i of the Mesh, whose
+    numbers of points, triangles and facets are used here. The arrays show the memory of the library, without a copy,
+    and cannot be written. c is the number of owned points, n that of local points, f that of faces:
+
+      areas           [n]    of cells; those of ghosts too
+      centroids       [n,2]
+      vertices        [v,2]  corners of polygons; row t is the circumcentre of the local triangle t
+      corner_first [c+1], corners [-]               the polygon of cell i is corners[corner_first[i]:corner_first[i+1]],
+                                                    counter-clockwise; see polygon()
+      part_first [c+1], part_regions, part_areas [p], part_centroids [p,2]   parts of cells, one unless regions meet
+      part_corner_first [p+1], part_corners [-]     polygons of the parts
+      faces           [f,2]  the two cells (local points) of each face; the lower global id comes first
+      face_arms       [f,2]  vector from the first site to the second, normal to the face
+      face_lengths [f,2], face_regions [f,2]        length of the face in each of two regions; 0 and 0: only one
+      face_vertices   [f,2]  ends of the face, on the right and on the left of the arm
+      neighbour_first [c+1], neighbours, neighbour_faces [-]   the neighbours of a cell, counter-clockwise
+      chord_cells, chord_facets [h], chord_normals [h,2]       halves of boundary edges; outward, as long as the half
+
+    owned_cells and owned_faces count what this rank owns; other faces follow the owned ones. A flux of the size
+    k d / l through a face, with d from face_lengths, l the length of the arm, and the k of each region, is exact for
+    functions that are linear in each region.
+    """
+
+    def __init__(self, native):
+        self._native = native
+
+    def __getattr__(self, name):
+        if name.startswith("_"):
+            raise AttributeError(name)
+        return getattr(self._native, name)
+
+    def __dir__(self):
+        return sorted({*super().__dir__(), *(name for name in dir(self._native) if not name.startswith("_"))})
+
+    def polygon(self, cell):
+        """Returns the corners of a cell as an array with the shape (k, 2)."""
+        return self.vertices[self.corners[self.corner_first[cell]:self.corner_first[cell + 1]]]
