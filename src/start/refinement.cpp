@@ -86,13 +86,6 @@ void keep_marked(List& items, const std::vector<std::uint8_t>& keep) {
   items.resize(kept);
 }
 
-bool is_clear(const Stage& next, Vec2 p) {
-  if (!next.guard->inside(p))
-    return false;
-  const double free = placing::PlacingRules::density_strip * sizing::checked_size(*next.size, p);
-  return next.guard->distance(p, free) >= free;
-}
-
 /// A possible new site and its place in the order of urgency.
 struct NewSite {
   Vec2 place;
@@ -108,6 +101,13 @@ std::uint64_t urgency(Vec2 p, Vec2 q, Vec2 r, Vec2 place, const sizing::SizeFiel
 }
 
 } // namespace
+
+bool is_clear(const Stage& next, Vec2 p) {
+  if (!next.guard->inside(p))
+    return false;
+  const double free = placing::PlacingRules::density_strip * sizing::checked_size(*next.size, p);
+  return next.guard->distance(p, free) >= free;
+}
 
 mesh::SiteList inner_sites(const SiteState& state) {
   const mesh::BinnedPoints& points = state.points();
