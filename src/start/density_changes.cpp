@@ -27,8 +27,16 @@ using sites::StageView;
 // [sites] Largest share of one site: more triangles than that are left to the next call.
 constexpr double largest_share = 4;
 
-// [sites] Sites are taken out or put in when the shares differ from the sites by more than this.
-constexpr double tolerated = 0.75;
+// [sites] Sites are taken out or put in when the sum of the shares differs from the number of sites by more than this.
+// The sum over the first sites of a tile varies by up to two where the density is right, because the triangles at the
+// edge of these sites belong to other sites, too.
+constexpr double tolerated = 3;
+
+// [sites] The same where the share of a single site says that the density is wrong.
+constexpr double tolerated_at_wrong_share = 0.5;
+
+// [1] Such shares are above or below these. In a relaxed mesh nearly all of them lie between 0.8 and 1.2.
+constexpr double wrong_above = 1.5, wrong_below = 0.55;
 
 // [sites] From this share on, new sites lie in the middles of edges, and otherwise in the middles of triangles: four
 // times as many sites are regular if each edge is divided.
@@ -98,10 +106,12 @@ public:
       smallest_ = i;
     if (largest_ < 0 || shares_[at(i)] > shares_[at(largest_)])
       largest_ = i;
-    if (ahead_ < -tolerated && smallest_ >= 0)
+    const double free = wanted_share(points_, i);
+    const double most = share > wrong_above * free || share < wrong_below * free ? tolerated_at_wrong_share : tolerated;
+    if (ahead_ < -most && smallest_ >= 0)
       take_out();
-    else if (ahead_ > tolerated)
-      put_in(share > share_of_edges ? i : largest_, share > share_of_edges);
+    else if (ahead_ > most)
+      put_in(share > share_of_edges ? i : largest_, share > share_of_edges, most);
     ahead_ = std::clamp(ahead_, -2 * tolerated, 2 * tolerated); // the rest is left to the next call
   }
 
@@ -114,9 +124,9 @@ private:
     smallest_ = largest_ = -1;
   }
 
-  void put_in(LocalIndex i, bool on_edges) {
+  void put_in(LocalIndex i, bool on_edges, double most) {
     for (const Vec2 place : places_around(view_, i, on_edges)) {
-      if (ahead_ <= tolerated)
+      if (ahead_ <= most)
         break;
       if (!is_clear(next_, place))
         continue;
