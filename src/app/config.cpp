@@ -300,6 +300,18 @@ void read_meshing(const Settings& settings, const geometry::Box& container, mesh
   mesh.stop_tolerance = settings.optional_number("meshing", "stop_tolerance");
 }
 
+/// The mesh from which a run starts.
+void read_start_file(const Settings& settings, const fs::path& directory, RunOptions& options, Diagnostics& problems) {
+  const std::string file = settings.text("meshing", "start");
+  if (file == "none")
+    return;
+  options.start_file = (directory / file).lexically_normal().string();
+  if (options.mesh.initial_fraction)
+    problems.add(settings.later_line("meshing", "start", "initial_fraction"),
+                 "'initial_fraction' in [meshing] has no effect with 'start', which says where the first points lie; "
+                 "keep one of them");
+}
+
 /// The file, and a part that is a normalised contour.
 void read_fixed_points_options(const Settings& settings, const fs::path& directory, RunOptions& options,
                                Diagnostics& problems) {
@@ -450,6 +462,7 @@ RunOptions parse_config(std::string_view text, const std::string& path, const st
   read_formulas(settings, fs::path(path).parent_path(), options, problems);
   read_sizing(settings, options, problems);
   read_meshing(settings, options.container, options.mesh, problems);
+  read_start_file(settings, fs::path(path).parent_path(), options, problems);
   read_fixed_points_options(settings, fs::path(path).parent_path(), options, problems);
   read_parallel(settings, options);
   read_output(settings, options, problems);

@@ -382,6 +382,13 @@ const Option table[] = {
      .fallback = "none",
      .meaning = "name of a normalised contour; the fixed points are moved and scaled in the same way as this contour"},
     {.section = "meshing",
+     .key = "start",
+     .kind = OptionKind::path,
+     .fallback = "none",
+     .meaning =
+         "a mesh file: its points in the new shape are the start of the new mesh, thinned and refilled where the "
+         "wanted size differs; fewer sweeps than for a new mesh if shape and size differ little"},
+    {.section = "meshing",
      .key = "corner_angle",
      .fallback = "30",
      .range = {0, 180, true},

@@ -119,6 +119,7 @@ struct RunOptions {
   meshing::MeshOptions
       mesh; ///< options of the mesher, without the fixed points, which are read together with the shape
   FixedPointsFile fixed_points;
+  std::string start_file;           ///< mesh file whose points are the start; empty: none
   std::vector<FieldOptions> fields; ///< data that a formula uses
   SizingOptions sizing;
   FormulaText depth;               ///< formula of the depth at points; empty if none is asked for

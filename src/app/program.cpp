@@ -7,6 +7,7 @@
 #include "app/convert.hpp"
 #include "app/depth.hpp"
 #include "app/machine.hpp"
+#include "app/old_mesh.hpp"
 #include "app/option_table.hpp"
 #include "app/provenance.hpp"
 #include "app/refine.hpp"
@@ -247,14 +248,23 @@ std::vector<BuiltField> read_data(const Job& job, const ShapeInput& input) {
   return fields;
 }
 
+/// The mesh from which the run starts, if the config names one. Collective.
+std::optional<OldMesh> read_start(const Job& job) {
+  if (job.options.start_file.empty())
+    return std::nullopt;
+  const auto timing = job.timers.scope("start");
+  return read_old_mesh(job.options.start_file, job.comm);
+}
+
 /// One mesh, from the config to its files. All functions are collective.
 class MeshRun {
 public:
   /// Prepares: reads all input and checks that the output can be written.
   explicit MeshRun(const Job& job)
       : job_(job), placement_(set_up_threads(job)), input_(read_input(job)), fields_(read_data(job, input_)),
+        old_(read_start(job)),
         keeper_({job.comm, checkpoint_options(job), job.signals, job.timers, job.log}, job.options.checkpoint,
-                job.line.time_limit, {program_name(), job.options.resolved + hashes_of(fields_)}),
+                job.line.time_limit, {program_name(), job.options.resolved + hashes_of(fields_) + hash_of(old_)}),
         saved_(keeper_.find(job.line.restart)), // before directories are made
         series_(series_options(job, input_), job.comm), mesh_(placed_options(job.options, input_, job.comm)) {
     size_ = [&] {
@@ -288,6 +298,7 @@ private:
   const Placement placement_;
   const ShapeInput input_;
   const std::vector<BuiltField> fields_;
+  const std::optional<OldMesh> old_; // where the sites start
   CheckpointKeeper keeper_;
   const std::optional<meshing::SavedRun> saved_; // where the run goes on
   formats::MeshSeries series_;
@@ -328,6 +339,8 @@ meshing::MeshResult MeshRun::make_mesh(const Provenance& provenance) {
     series_.write_step(
         {snapshot.retriangulation, snapshot.mesh, snapshot.quality, describe_step(provenance, snapshot)});
   });
+  if (old_)
+    mesher.start_from(old_->points());
   if (saved_) {
     mesher.go_on_from(*saved_);
     int triangulations = 0;
@@ -391,6 +404,7 @@ ExitCode MeshRun::run() {
                               boundary(),
                               input_.normalized,
                               input_.map,
+                              old_,
                               job_.comm.is_root(),
                               {boundary().part_names,
                                input_.domain().part_markers(),

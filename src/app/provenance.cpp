@@ -79,10 +79,17 @@ Attributes open_attributes(const Provenance& p) {
   return {};
 }
 
+/// The mesh from which the run started, with a hash of its points.
+Attributes start_attributes(const std::optional<OldMesh>& old) {
+  if (!old)
+    return {};
+  return {{"start_file", old->file}, {"start_points", old->count}, {"start_hash", old->hash}};
+}
+
 /// Describes what is known before the run.
 Attributes given_attributes(const Provenance& p) {
   return joined({record::format_attributes(), program_attributes(p.line), run_attributes(p), open_attributes(p),
-                 record::place_attributes(p.origin), normalization_attributes(p.normalized)});
+                 start_attributes(p.old), record::place_attributes(p.origin), normalization_attributes(p.normalized)});
 }
 
 std::vector<io::Text> texts(const Provenance& p) {

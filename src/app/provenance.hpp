@@ -5,6 +5,7 @@
 #include "app/command_line.hpp"
 #include "app/machine.hpp"
 #include "app/map_projection.hpp"
+#include "app/old_mesh.hpp"
 #include "app/options.hpp"
 #include "app/run_report.hpp"
 #include "trime/geometry/boundary.hpp"
@@ -13,6 +14,7 @@
 #include "trime/record/describe.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +33,7 @@ struct Provenance {
   const geometry::Boundary& boundary;
   const std::vector<NormalizedPart>& normalized;
   const MapSystem& map;
+  const std::optional<OldMesh>& old; ///< where the sites started
   bool is_root; ///< whether this is rank 0; other ranks do not call PROJ, because their metadata is not written
   record::Origin origin; ///< names and markers of the mesh; its ring_lines come from UserPlaces::ring_lines
 };

@@ -36,7 +36,7 @@ bool is_input(const std::string& file, const RunOptions& options, const CommandL
   for (const PartOptions& part : options.parts)
     if (is_same(file, part.file) || is_beside_shapefile(file, part.file))
       return true;
-  return is_same(file, options.fixed_points.file) || is_same(file, line.restart);
+  return is_same(file, options.fixed_points.file) || is_same(file, options.start_file) || is_same(file, line.restart);
 }
 
 bool is_output(const std::string& file, const RunOptions& options, const CommandLine& line) {

@@ -36,6 +36,7 @@ std::vector<std::string> items_of(const Shape& shape, const MeshOptions& options
       fmt::format("max_sweeps {}", options.max_sweeps),
       fmt::format("worst_alpha {}", options.worst_alpha),
       fmt::format("seed {}", options.seed),
+      options.start ? fmt::format("start mesh {:016x}", options.start->hash()) : "start none",
       fmt::format("features {} {} {} {} {} {}", features.corner_angle, features.keep_all, features.refine_narrow,
                   features.tolerance, features.within, static_cast<int>(features.narrow)),
       fmt::format("connections {}, components {} at ({}, {}), max_loss {}", static_cast<int>(features.connect),
@@ -125,6 +126,10 @@ void check_options(const Shape& shape, const Size& size, const MeshOptions& opti
   check_same(shape, options, comm);
   check_values(options); // the same on all ranks
   check_absolute(size, options);
+  if (options.start && options.start->communicator().size() != comm.size())
+    throw ConfigError(fmt::format("MeshOptions::start: expected a mesh on the {} ranks of the communicator, found one "
+                                  "on {}; write it to a file, and read it with this communicator",
+                                  comm.size(), options.start->communicator().size()));
 }
 
 } // namespace trime

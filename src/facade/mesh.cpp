@@ -364,7 +364,10 @@ Mesh make_mesh(MPI_Comm handle, const Shape& shape, const Size& size, const Mesh
   TimerTable timers;
   auto made = std::make_unique<Mesh::Implementation>();
   made->communicator = comm;
-  made->result = meshing::Mesher(*comm, domain, *field, lower, log, timers).run();
+  meshing::Mesher mesher(*comm, domain, *field, lower, log, timers);
+  if (options.start)
+    mesher.start_from({options.start->result().mesh.points, options.start->periods()});
+  made->result = mesher.run();
   made->origin = {boundary.part_names,
                   domain.part_markers(),
                   record::named(domain.regions(), shape.text()),

@@ -62,7 +62,8 @@ public:
                                 .timers = run.timers,
                                 .fixed = boundary_.fixed(),
                                 .raised = std::move(raised)},
-        scheme_(layout_, start_options(run.options)), stars_(run), snapshots_(run, boundary_, stars_, observer),
+        scheme_(layout_, start_options(run.options, run.old)), stars_(run),
+        snapshots_(run, boundary_, stars_, observer),
         checkpoints_(run, checkpoints, [this](StateFields& fields) { visit(fields); }),
         relaxation_(run, stars_, snapshots_, checkpoints_) {}
 
@@ -73,11 +74,11 @@ public:
       go_on_from(*saved_);
     } else {
       start_first_stage();
-      relaxation_.relax(stage_, number());
+      relax();
     }
     while (!scheme_.is_last()) {
       start_next_stage();
-      relaxation_.relax(stage_, number());
+      relax();
     }
     const bool stands = saved_ && point_of(*saved_) == RunPoint::relaxed;
     if (const int wish = checkpoints_.wish_before_cleanup(stands); wish > 0)
@@ -98,10 +99,14 @@ private:
   bool raise_at_short_edges(int trial);
   void start_first_stage();
   void start_next_stage();
+  void relax();
   void go_on_from(const SavedRun& saved);
   void check_input(const SavedRun& saved) const;
   void visit(StateFields& fields);
-  StageNumber number() const { return {scheme_.stage(), scheme_.inserts(), scheme_.is_last(), scheme_.last_stage()}; }
+  StageNumber number() const {
+    return {scheme_.relaxed_stage(), scheme_.inserts(), scheme_.is_last(), scheme_.last_relaxed_stage(),
+            scheme_.is_nearly_relaxed()};
+  }
   std::vector<std::uint64_t> quiet_tiles() const;
   void begin(Stage stage);
   void begin_sweeps();
@@ -145,6 +150,14 @@ void Run::start_first_stage() {
 void Run::start_next_stage() {
   stars_.complete(stage_, LemmaReach::up_to_chords);
   begin(scheme_.next(stage_));
+}
+
+/// Makes the sweeps of the stage, or only its triangles if it needs none.
+void Run::relax() {
+  if (scheme_.relaxes())
+    relaxation_.relax(stage_, number());
+  else
+    stars_.compute(stage_, sites::Wanted::inner_sites);
 }
 
 void Run::begin(Stage stage) {
@@ -481,7 +494,8 @@ std::string Run::count_reason(GlobalId points) const {
 
 class Mesher::Implementation {
 public:
-  const RunContext run;
+  RunContext run;
+  OldPoints old{};
   SnapshotObserver observer;
   Checkpoints* checkpoints = nullptr;
   const SavedRun* saved = nullptr;
@@ -489,7 +503,7 @@ public:
 
 Mesher::Mesher(const comm::Communicator& comm, const geometry::Domain& domain, const sizing::SizeField& size,
                const MeshOptions& options, Log& log, TimerTable& timers)
-    : implementation_(new Implementation{{comm, domain, size, options, log, timers}, {}, nullptr, nullptr}) {}
+    : implementation_(new Implementation{{comm, domain, size, options, log, timers}, {}, {}, nullptr, nullptr}) {}
 Mesher::~Mesher() = default;
 
 void Mesher::on_snapshot(SnapshotObserver observer) {
@@ -502,6 +516,12 @@ void Mesher::keep_checkpoints(Checkpoints& checkpoints) {
 
 void Mesher::go_on_from(const SavedRun& saved) {
   implementation_->saved = &saved;
+}
+
+void Mesher::start_from(OldPoints old) {
+  start::check_periods(old, implementation_->run.domain.frame().periods());
+  implementation_->old = std::move(old);
+  implementation_->run.old = &implementation_->old;
 }
 
 MeshResult Mesher::run() {

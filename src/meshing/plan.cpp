@@ -42,11 +42,12 @@ fitting::FitOptions fit_options(const MeshOptions& options, const sizing::SizeFi
           .shortest_edge = options.shortest_edge.value_or(0)};
 }
 
-start::StartOptions start_options(const MeshOptions& options) {
+start::StartOptions start_options(const MeshOptions& options, const start::OldPoints* old) {
   return {.seed = options.seed,
           .start = options.start,
           .initial_fraction = options.initial_fraction,
-          .cleanup = options.cleanup};
+          .cleanup = options.cleanup,
+          .old = old};
 }
 
 sweep::SweepOptions sweep_options(const MeshOptions& options) {

@@ -13,7 +13,8 @@ namespace trime::meshing {
 
 /// @param size decides whether absolute sizes are one length
 fitting::FitOptions fit_options(const MeshOptions& options, const sizing::SizeField& size);
-start::StartOptions start_options(const MeshOptions& options);
+/// @param old the points of an old mesh; null: the sites start at new places
+start::StartOptions start_options(const MeshOptions& options, const start::OldPoints* old = nullptr);
 sweep::SweepOptions sweep_options(const MeshOptions& options);
 cleanup::CleanupOptions cleanup_options(const MeshOptions& options);
 

@@ -16,7 +16,7 @@ using sweep::Sweeper;
 using sweep::SweepSums;
 
 void Relaxation::relax(sites::Stage& stage, const StageNumber& number) {
-  control_.begin_stage(number.inserts, number.is_last);
+  control_.begin_stage(number.inserts, number.is_last, number.is_nearly_relaxed);
   counts_ = {};
   counts_.rebuilt = run_.comm.sum(stars_.compute(stage, sites::Wanted::inner_sites).rebuilt);
   Sweeper sweeper(*stage.state, stars_.builder(), sweep::move_context(stage, run_.lattice),
@@ -137,7 +137,7 @@ RunState Relaxation::state() {
 void Relaxation::resume(sites::Stage& stage, const StageNumber& number, const SavedRun& saved) {
   history_ = saved.state.history;
   seconds_before_ = history_.empty() ? 0 : history_.back().seconds - run_.timers.total();
-  control_.begin_stage(number.inserts, number.is_last);
+  control_.begin_stage(number.inserts, number.is_last, number.is_nearly_relaxed);
   StateFields fields = StateFields::restoring(saved.state.numbers);
   visit(fields);
   begun_ = control_.mover();

@@ -20,7 +20,8 @@ struct StageNumber {
   int stage;    ///< number of the stage, from 0
   bool inserts; ///< whether later stages insert points into the mesh of this stage
   bool is_last;
-  int last = 0; ///< number of the last stage, as far as known
+  int last = 0;                   ///< number of the last stage, as far as known
+  bool is_nearly_relaxed = false; ///< whether the sites are those of a relaxed mesh, except for a small share
 };
 
 /// Makes sweeps until the stop rule ends a stage, and records the history of the run.

@@ -32,6 +32,7 @@ struct RunContext {
   const geometry::Lattice& lattice; ///< coordinate lattice of the container
   Log& log;
   TimerTable& timers;
+  const start::OldPoints* old = nullptr; ///< points of an old mesh, from which the run starts; owned by the caller
 
   /// Returns the longer side of the container.
   double side() const {

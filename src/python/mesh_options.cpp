@@ -73,6 +73,7 @@ std::map<std::string, Setter> setters() {
       {"max_loss", feature<double>(&boundary::FeatureOptions::max_loss)},
       {"max_sweeps", setter<int>(&MeshOptions::max_sweeps)},
       {"worst_alpha", setter<double>(&MeshOptions::worst_alpha)},
+      {"start", [](MeshOptions& options, py::handle value) { options.start = value.cast<const Mesh*>(); }},
       {"seed", setter<std::uint64_t>(&MeshOptions::seed)},
   };
 }

@@ -5,6 +5,7 @@
 #include "fitting/points_of_length.hpp"
 #include "fitting/rules.hpp"
 #include "placing/work_share.hpp"
+#include "start/density_changes.hpp"
 #include "start/refinement.hpp"
 #include "start/rules.hpp"
 #include "trime/core/error.hpp"
@@ -50,6 +51,10 @@ constexpr double most_crowded = 1.1;
 // [stages] Divisions where the size is limited to the growth that triangles can follow: the sizes of the coarser stage
 // grow by twice as much.
 constexpr int divisions_of_steep_sizes = 1;
+
+// [stages] Most stages in which the points of an old mesh are thinned and refilled. Each of them makes up to four times
+// as many.
+constexpr int most_density_stages = 12;
 
 // [1] Where there are too few points, the program tries a number that is larger by this factor each time, until one is
 // large enough; then it tries the geometric mean of the last two.
@@ -97,7 +102,11 @@ void PointScheme::choose() {
   const bool uniform = given_.relative_size.is_uniform();
   const Start start = options_.start;
   const double fraction = options_.initial_fraction.value_or(1);
-  if (options_.initial_fraction && fraction < 1) {
+  if (options_.old) {
+    scheme_ = Scheme::old_mesh;
+    last_stage_ = 1; // at least
+    reason_ = "the points of " + options_.old->name;
+  } else if (options_.initial_fraction && fraction < 1) {
     scheme_ = Scheme::insertion;
     points_now_ = std::max(3.0, std::ceil(fraction * expected_points()));
     for (double points = points_now_; points < expected_points(); points *= StartRules::growth)
@@ -175,6 +184,7 @@ Stage PointScheme::first() {
 PointScheme::First PointScheme::first_of_scheme() {
   return scheme_ == Scheme::lattice     ? first_of_lattice()
          : scheme_ == Scheme::insertion ? first_of_insertion()
+         : scheme_ == Scheme::old_mesh  ? first_of_old_mesh()
                                         : first_of_divisions();
 }
 
@@ -329,8 +339,10 @@ Stage PointScheme::last_from(Stage first) {
   return scheme_ == Scheme::insertion ? fit_.lay(1, expected_points()) : std::move(laid_last_);
 }
 
-Stage PointScheme::next(const Stage& previous) {
+Stage PointScheme::next(Stage& previous) {
   ++stage_;
+  if (scheme_ == Scheme::old_mesh)
+    return follow_density(std::move(previous));
   return scheme_ == Scheme::insertion ? insert(previous) : divide(previous);
 }
 
@@ -339,11 +351,18 @@ void PointScheme::visit(StateFields& fields) {
   fields.field("last_stage", last_stage_);
   fields.field("points_now", points_now_);
   fields.field("expected", expected_);
+  if (scheme_ != Scheme::old_mesh)
+    return;
+  fields.field("old_kept", changes_.kept);
+  fields.field("old_removed", changes_.removed);
+  fields.field("old_inserted", changes_.inserted);
+  reason_ = changes_.text(*options_.old);
 }
 
 Stage PointScheme::lay_again_from(Stage first) {
   return stage_ == 0                    ? std::move(first)
          : scheme_ == Scheme::insertion ? lay_insertion()
+         : scheme_ == Scheme::old_mesh  ? fit_.lay_again(std::move(first), expected_)
                                         : lay_division(laid_last_, expected_);
 }
 
@@ -351,6 +370,75 @@ Stage PointScheme::lay_again_from(Stage first) {
 Stage PointScheme::lay_insertion() {
   const double coarsening = is_last() ? 1 : std::fmax(1, std::sqrt(expected_points() / points_now_));
   return fit_.lay(coarsening, points_now_);
+}
+
+/// The last stage of a new mesh, with the number of its inner sites.
+std::variant<fitting::StageFit, fitting::TooFewPoints> PointScheme::lay_last() {
+  if (given_.relative_size.is_uniform() && fit_.context().raised.empty()) {
+    std::variant<fitting::LatticeFit, fitting::TooFewPoints> found = fit_.find_lattice();
+    if (fitting::TooFewPoints* few = std::get_if<fitting::TooFewPoints>(&found))
+      return std::move(*few);
+    fitting::LatticeFit& fit = std::get<fitting::LatticeFit>(found);
+    if (!(given_.options.features.refine_narrow && fit_.needs_lowering(fit.stage)) &&
+        !fit_.raise_at_short_edges(fit.stage)) {
+      const auto time = given_.timers.scope("start");
+      share_runs(placing::LatticeStart(given_.given_boundary, *fit.stage.guard, given_.lattice), fit);
+      return fitting::StageFit{std::move(fit.stage), static_cast<double>(given_.comm.sum(fit.runs.count())),
+                               std::move(fit.shortage)};
+    }
+  }
+  if (given_.relative_size.is_uniform())
+    fit_.lower_uniform();
+  return fit_.find_density(expected_points(), fitting::LayoutRules::coarse_integral);
+}
+
+/// The old points in the shape, at the size of the final mesh.
+PointScheme::First PointScheme::first_of_old_mesh() {
+  std::variant<fitting::StageFit, fitting::TooFewPoints> found = lay_last();
+  if (fitting::TooFewPoints* few = std::get_if<fitting::TooFewPoints>(&found))
+    return std::move(*few);
+  fitting::StageFit& fit = std::get<fitting::StageFit>(found);
+  shortage_ = std::move(fit.shortage);
+  const auto on_curves = static_cast<double>(fit.stage.placed_first());
+  fitting::check_point_limit(given_.options, fit.inner + on_curves);
+  wanted_inner_ = given_.options.points && shortage_.empty() ? expected_points() - on_curves : fit.inner;
+  const auto time = given_.timers.scope("start");
+  mesh::SiteList sites = sites_of(*options_.old, given_.domain.frame());
+  const std::int64_t all = given_.comm.sum(static_cast<std::int64_t>(sites.size()));
+  clear_strip(fit.stage, sites);
+  changes_ = {.all = all, .kept = given_.comm.sum(static_cast<std::int64_t>(sites.size()))};
+  if (changes_.kept == 0)
+    throw ConfigError(no_point_of(*options_.old, all));
+  expected_ = static_cast<double>(changes_.kept) + on_curves;
+  Stage stage = fit_.lay_again(std::move(fit.stage), expected_);
+  fit_.place_sites(stage, std::move(sites));
+  return stage;
+}
+
+/// Thins and refills the sites of a stage of an old mesh.
+Stage PointScheme::follow_density(Stage previous) {
+  const comm::Communicator& comm = given_.comm;
+  const StageView old = previous.view(given_.lattice);
+  const auto time = given_.timers.scope("start");
+  DensityChanges made = changes_for_density(old, previous, wanted_inner_);
+  changes_.add(made);
+  if (made.is_finished || stage_ == most_density_stages)
+    last_stage_ = stage_;
+  else
+    last_stage_ = stage_ + 1;
+  if (given_.options.points && is_last()) {
+    const std::int64_t most = std::max<std::int64_t>(0, *given_.options.points - reserve() - previous.placed_first());
+    changes_.removed += trim(comm, previous, most, made.sites);
+    const std::int64_t missing = most - comm.sum(static_cast<std::int64_t>(made.sites.size()));
+    if (shortage_.empty() &&
+        static_cast<double>(missing) > small_shortage * static_cast<double>(*given_.options.points))
+      insert_in_triangles(old, previous, missing, made.sites);
+  }
+  reason_ = changes_.text(*options_.old);
+  expected_ = static_cast<double>(comm.sum(static_cast<std::int64_t>(made.sites.size())) + previous.placed_first());
+  Stage stage = fit_.lay_again(std::move(previous), expected_);
+  fit_.place_sites(stage, std::move(made.sites));
+  return stage;
 }
 
 Stage PointScheme::divide(const Stage& previous) {

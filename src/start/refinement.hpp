@@ -11,6 +11,10 @@
 
 namespace trime::start {
 
+/// Returns whether a place lies inside the shape, outside of the strip along its boundary in which no site starts.
+/// @throws GeometryError on this rank alone if the size there is not positive and finite
+bool is_clear(const sites::Stage& next, geometry::Vec2 p);
+
 /// Returns the owned inner sites without their leads (momentum).
 mesh::SiteList inner_sites(const sites::SiteState& state);
 

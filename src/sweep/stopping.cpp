@@ -72,12 +72,14 @@ void SweepControl::use(Mover mover) {
   }
 }
 
-void SweepControl::begin_stage(bool inserts, bool is_last) {
+void SweepControl::begin_stage(bool inserts, bool is_last, bool is_nearly_relaxed) {
   first_record_ = history_.size();
   may_switch_ = options_.method == Method::hybrid && (is_last || !inserts);
   inserts_ = inserts;
   is_last_ = is_last;
-  if (mover_ != Mover::bars)
+  if (is_nearly_relaxed && options_.method == Method::hybrid)
+    use(Mover::triangles);
+  else if (mover_ != Mover::bars)
     use(mover_); // without the momentum of the stage before
 }
 

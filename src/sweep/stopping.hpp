@@ -69,7 +69,9 @@ public:
   /// Begins a stage.
   /// @param inserts true if later stages insert points (false if they divide triangles)
   /// @param is_last true if no stage follows
-  void begin_stage(bool inserts, bool is_last);
+  /// @param is_nearly_relaxed true if the sites are those of a relaxed mesh, except for a small share; then
+  /// TriangleRule begins
+  void begin_stage(bool inserts, bool is_last, bool is_nearly_relaxed = false);
   /// Decides after the last record whether the stage goes on; changes nothing.
   /// @pre the stage has a record
   SweepDecision decide() const;

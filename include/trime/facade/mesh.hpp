@@ -121,6 +121,7 @@ private:
 };
 
 class Log;
+class Mesh;
 namespace meshing {
 struct MeshResult;
 }
@@ -157,6 +158,10 @@ struct MeshOptions {
   double worst_alpha =
       5; ///< a triangle with a larger alpha, R/(2r), fails a check, unless it lies at a corner below 60 degrees
   std::uint64_t seed = 1;
+  /// An old mesh of any shape, size and number of points, with the same periods, on as many ranks. Its points in the
+  /// new shape are the start of the new mesh, thinned and refilled where the wanted size differs: fewer sweeps than for
+  /// a new mesh if shape and size differ little. For a file, see read_mesh. Must exist until make_mesh has returned.
+  const Mesh* start = nullptr;
   Log* log = nullptr; ///< receives all messages; null: warnings go to the standard error of rank 0
 };
 

@@ -47,6 +47,7 @@ using SnapshotObserver = std::function<void(const Snapshot&)>;
 
 class Checkpoints;
 struct SavedRun;
+using start::OldPoints;
 
 /// Makes one mesh. Use the function make_mesh unless you need snapshots, checkpoints or an estimate (outlook).
 class Mesher {
@@ -72,6 +73,13 @@ public:
   /// @param saved state of a run with the same boundary, size and options, on any number of ranks; must outlive this
   /// object
   void go_on_from(const SavedRun& saved);
+
+  /// @brief Starts from the points of an old mesh of any shape, size and number of points. Those that lie in the new
+  /// shape are thinned and refilled where the wanted size differs; the boundary is laid out again. Costs fewer sweeps
+  /// than a new mesh if shape and size differ little. Must be called before run.
+  /// @param old the points that this rank holds; the array must outlive this object
+  /// @throws ConfigError on all ranks if the periods of the old mesh are not those of the domain
+  void start_from(OldPoints old);
 
   /// @brief Makes the mesh. @note Collective.
   /// @throws GeometryError on all ranks together if the shape cannot be meshed at the wanted resolution

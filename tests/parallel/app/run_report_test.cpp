@@ -64,7 +64,7 @@ TEST(RunReport, TheFileHasARowForEachCounterOfAPhase) {
   const std::string text;
   const Placement placement;
   const geometry::Boundary boundary;
-  const Provenance provenance{line, options, text, placement, boundary, {}, {}, true, {}};
+  const Provenance provenance{line, options, text, placement, boundary, {}, {}, {}, true, {}};
   Measurements measured;
   measured.ranks = 2;
   measured.phases = {{"stars"}, {"sweeps"}};
@@ -109,7 +109,7 @@ TEST(RunReport, AFailedCheckMarksTheFile) {
   const std::string text;
   const Placement placement;
   const geometry::Boundary boundary;
-  const Provenance provenance{line, options, text, placement, boundary, {}, {}, true, {}};
+  const Provenance provenance{line, options, text, placement, boundary, {}, {}, {}, true, {}};
   meshing::MeshResult result = good_result();
   EXPECT_EQ(number(describe_run(provenance, result, {}, {}), "complete"), 1);
   result.checks.push_back({"vertex_distance", 1e-9, 1e-7, false, "boundary vertices"});
@@ -128,7 +128,7 @@ TEST(RunReport, TheTableOfTagsNamesLoopsAndParts) {
   const Placement placement;
   geometry::Boundary boundary;
   boundary.part_names = {"square", "unused", "disc"};
-  const Provenance provenance{line, options, text, placement, boundary, {}, {}, true, {boundary.part_names}};
+  const Provenance provenance{line, options, text, placement, boundary, {}, {}, {}, true, {boundary.part_names}};
   meshing::MeshResult result = good_result();
   using Kind = polygon::LoopSummary::Kind;
   result.loops = {{1, Kind::outer, 40, 3.25, {0, 2}}, {2, Kind::hole, 7, 0.5, {2}}, {3, Kind::band, 9, 1, {0}}};

@@ -161,6 +161,40 @@ TEST(Mesher, SameBitsWithAllMethodsAndPointSchemes) {
   expect_same_everywhere(c);
 }
 
+/// The same points, in another order and on other ranks, give the same mesh; a moved shape takes few sweeps.
+TEST(Mesher, StartsFromThePointsOfAnOldMeshInAnyOrder) {
+  const comm::Communicator world = comm::Communicator::world();
+  const RegionShape old_shape = disc_with_hole(), new_shape = square();
+  const MeshResult old = mesh_silently(world, old_shape.domain(), sizing::UniformSize(), with_points(900));
+  const std::vector<Vec2> all = testing::gather_all(world, old.mesh.points);
+  std::vector<Vec2> mine; // all on one rank, the last one first
+  if (world.is_root())
+    mine.assign(all.rbegin(), all.rend());
+  Log quiet(LogLevel::error, false);
+  std::vector<std::uint64_t> hashes;
+  for (const std::span<const Vec2> points : {std::span<const Vec2>(old.mesh.points), std::span<const Vec2>(mine)}) {
+    TimerTable timers;
+    const sizing::UniformSize size;
+    MeshOptions options = with_points(1500);
+    Mesher mesher(world, new_shape.domain(), size, options, quiet, timers);
+    mesher.start_from({points, {}});
+    const MeshResult result = mesher.run();
+    expect_certified(result);
+    EXPECT_LE(result.mesh.point_slab.total, 1500);
+    EXPECT_GE(result.mesh.point_slab.total, 1500 * 98 / 100) << result.count_reason;
+    hashes.push_back(result.mesh.hash);
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
+  TimerTable timers;
+  const sizing::UniformSize size;
+  const MeshOptions options = with_points(1500);
+  Mesher mesher(world, new_shape.domain(), size, options, quiet, timers);
+  EXPECT_THROW(mesher.start_from({mine, {1, 0}}), ConfigError);
+  const std::vector<Vec2> outside{{7, 7}};
+  mesher.start_from({outside, {}});
+  EXPECT_THROW(mesher.run(), ConfigError);
+}
+
 TEST(Mesher, TheNumberOfPointsIsMetByEveryScheme) {
   const comm::Communicator world = comm::Communicator::world();
   for (const bool graded : {false, true})
