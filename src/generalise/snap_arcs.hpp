@@ -17,6 +17,14 @@ struct JoinedLines {
   std::int64_t vertices = 0; ///< vertices of one line through which the other one leads
   double farthest = 0;       ///< largest distance of such a vertex from the other line
   geometry::Vec2 place{};    ///< where that vertex is
+  /// Takes in what was joined later.
+  void add(const JoinedLines& later) {
+    vertices += later.vertices;
+    if (later.farthest > farthest) {
+      farthest = later.farthest;
+      place = later.place;
+    }
+  }
 };
 
 /// Arcs after some of them were joined.

@@ -8,9 +8,12 @@
 #include "generalise/smooth_arcs.hpp"
 #include "generalise/snap_arcs.hpp"
 #include "generalise/vertex_tree.hpp"
+#include "generalise/zip_lines.hpp"
 #include "geometry/inner_wedges.hpp"
 #include "trime/core/types.hpp"
 
+#include <string> //DBG
+#include <cstdio> //DBG
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -240,19 +243,56 @@ geometry::InnerCurves thin_arcs(const geometry::InnerCurves& curves, const geome
 // Arcs that have merged become simpler, and then further parts may be narrow.
 constexpr int most_rounds = 6;
 
+void dump(const char* name, const Partition& p) { //DBG
+  const char* to = getenv("ZIP_DUMP"); //DBG
+  if (!to) return; //DBG
+  FILE* f = fopen((std::string(to) + name).c_str(), "w"); //DBG
+  for (const auto& a : p.curves.arcs) { for (const auto& q : a.pieces) fprintf(f, "%.17g %.17g %.17g %.17g %d %d %d\n", q.start.x, q.start.y, q.end.x, q.end.y, a.left, a.right, q.part); fprintf(f, "\n"); } //DBG
+  fclose(f); //DBG
+} //DBG
+/// Joins curves with the interfaces that they follow. Returns whether any were joined.
+bool snap(Partition& partition, const ArcRequest& request) {
+  SnappedArcs snapped = snapped_arcs(partition.curves.arcs, partition.boundary, request.size, request.lattice);
+  partition.curves.arcs = std::move(snapped.arcs);
+  partition.joined.add(snapped.joined);
+  return snapped.joined.vertices > 0;
+}
+
+/// Gives small faces away and joins curves with interfaces, in turns: a face between two interfaces may go only as a
+/// whole, so the faces come first, whatever curves lead through them. Curves that were joined may leave further ones.
+Partition without_slivers(Partition given, const ArcRequest& request, std::span<const std::array<int, 2>> pairs,
+                          bool& has_absorbed) {
+  Partition made = std::move(given);
+  for (int round = 0; round < most_rounds; ++round) {
+    std::optional<Partition> large = absorb_parts(made.curves, made.boundary, request, pairs, SmallParts::faces);
+    if (large) {
+      large->joined = made.joined;
+      made = std::move(*large);
+      has_absorbed = true;
+    }
+    dump("a", made); //DBG
+    const bool has_snapped = snap(made, request);
+    dump("s", made); //DBG
+    std::optional<Partition> zipped = zip_lines(made, request, pairs);
+    if (zipped)
+      made = std::move(*zipped);
+    dump("z", made); //DBG
+    if (!large && !has_snapped && !zipped)
+      break;
+  }
+  return made;
+}
+
 } // namespace
 
 Partition simplify_partition(const geometry::InnerCurves& curves, const geometry::Boundary& boundary,
                              const ArcRequest& request, std::span<const std::array<int, 2>> pairs) {
-  geometry::InnerCurves joined = curves;
-  SnappedArcs snapped = snapped_arcs(curves.arcs, boundary, request.size, request.lattice);
-  joined.arcs = std::move(snapped.arcs);
-  std::optional<Partition> large = absorb_parts(joined, boundary, request, pairs, SmallParts::faces);
-  Partition made = large ? std::move(*large) : Partition{std::move(joined), boundary, false};
+  bool has_absorbed = false;
+  Partition made = without_slivers({curves, boundary}, request, pairs, has_absorbed);
   made.curves.on_boundary.clear();
   made.curves.outside.clear();
   std::vector<geometry::NarrowWedge> wedges = geometry::narrow_wedges(made.curves.arcs, made.boundary);
-  if (large)
+  if (has_absorbed)
     std::erase_if(wedges, [&](const geometry::NarrowWedge& wedge) {
       const std::array<int, 2> pair{std::min(wedge.left_region, wedge.right_region),
                                     std::max(wedge.left_region, wedge.right_region)};
@@ -274,12 +314,15 @@ Partition simplify_partition(const geometry::InnerCurves& curves, const geometry
     std::optional<Partition> wide = absorb_parts(made.curves, made.boundary, beyond_tips, pairs, SmallParts::and_necks);
     if (!wide)
       break;
+    wide->joined = made.joined;
     made = std::move(*wide);
+    snap(made, request);
     given = made.curves.arcs;
   }
+  dump("t", made); //DBG
   cut_wedges(made.curves, wedges, made.boundary, request);
+  dump("c", made); //DBG
   geometry::set_wedges(made.curves.arcs, made.boundary);
-  made.joined = snapped.joined;
   return made;
 }
 
