@@ -169,6 +169,60 @@ bool LineMesh::contract(LocalIndex from, LocalIndex to) {
   return true;
 }
 
+/// Moves a curve on the edge between a and b to the edges from both to the apex.
+void LineMesh::take_through(LocalIndex a, LocalIndex b, LocalIndex apex) {
+  const int curve = curve_on(a, b);
+  if (curve < 0)
+    return;
+  if (curves_.contains({b, a}))
+    std::swap(a, b);
+  curves_.erase({a, b});
+  --edges_of_curve_[curve];
+  for (const Ends& part : {Ends{a, apex}, Ends{apex, b}})
+    if (curve_on(part.first, part.second) < 0) {
+      curves_[part] = curve;
+      ++edges_of_curve_[curve];
+    }
+}
+
+bool LineMesh::flatten(LocalIndex t, double reach) {
+  Triangle& triangle = triangles_[at(t)];
+  if (triangle.region == RegionMap::outside ||
+      std::ranges::find(triangles_of_[at(triangle.corners[0])], t) == triangles_of_[at(triangle.corners[0])].end())
+    return false;
+  const auto length_of = [&](std::size_t k) {
+    return length(mesh_.point(triangle.corners[(k + 1) % 3]) - mesh_.point(triangle.corners[k]));
+  };
+  std::size_t longest = 0;
+  for (const std::size_t k : {1U, 2U})
+    longest = length_of(k) > length_of(longest) ? k : longest;
+  const LocalIndex a = triangle.corners[longest], b = triangle.corners[(longest + 1) % 3],
+                   apex = triangle.corners[(longest + 2) % 3];
+  if (!is_line(a, b) || !is_line(b, apex) || !is_line(apex, a) || !(2 * area(triangle) < reach * length_of(longest)))
+    return false;
+  const int beyond = left_of(b, a), curve = curve_on(a, b), own = triangle.region;
+  const auto may_border = [&](LocalIndex from, LocalIndex to) {
+    const int other = left_of(to, from), its = curve_on(from, to);
+    const std::array<int, 2> pair{std::min(beyond, other), std::max(beyond, other)};
+    return other != RegionMap::outside && (curve < 0 || its < 0 || its == curve) &&
+           (pair[0] == pair[1] || std::ranges::binary_search(pairs_, pair));
+  };
+  if (beyond == RegionMap::outside || !may_border(b, apex) || !may_border(apex, a) ||
+      (beyond != own && triangles_of_region_.at(own) == 1))
+    return false;
+  for (const LocalIndex v : triangle.corners)
+    is_changed_[at(v)] = 1;
+  take_through(a, b, apex);
+  if (beyond != own) {
+    const double lost = area(triangle);
+    losses_.push_back({own, beyond, geometry::LossReason::sliver, lost, 1, lost, mesh_.point(apex)});
+    --triangles_of_region_[own];
+    ++triangles_of_region_[beyond];
+    triangle.region = beyond;
+  }
+  return true;
+}
+
 void LineMesh::move_curves(LocalIndex from, LocalIndex to) {
   for (const LocalIndex w : neighbours(from))
     for (const bool leaves : {true, false}) {

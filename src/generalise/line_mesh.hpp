@@ -33,7 +33,10 @@ public:
 
   /// Moves the vertex `from` to `to`, its neighbour, if it may. Returns whether it did.
   bool contract(LocalIndex from, LocalIndex to);
-  bool is_moved(LocalIndex v) const { return triangles_of_[at(v)].empty(); }
+  /// @brief Lets the longest edge of a triangle lead through the third corner, if lines lead along all three edges and
+  /// that corner is nearer to the longest edge than `reach`. The triangle then belongs to the region beyond that edge.
+  /// Returns whether it did.
+  bool flatten(LocalIndex triangle, double reach);
   /// Returns whether a contraction has changed a line at the vertex.
   bool is_changed(LocalIndex v) const { return is_changed_[at(v)] != 0; }
   bool is_edge(LocalIndex a, LocalIndex b) const;
@@ -65,6 +68,7 @@ private:
   bool may_merge(LocalIndex from, LocalIndex to, LocalIndex apex) const;
   bool keeps_regions(LocalIndex from, LocalIndex to) const;
   double area(const Triangle& t) const;
+  void take_through(LocalIndex a, LocalIndex b, LocalIndex apex);
   void note_losses(const std::map<int, double>& gains, LocalIndex from);
   void move_curves(LocalIndex from, LocalIndex to);
 

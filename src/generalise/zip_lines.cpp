@@ -48,6 +48,8 @@ public:
       if (lines_.is_edge(a, b) || lines_.is_edge(b, a))
         join(a, b, distance);
     }
+    for (LocalIndex t = 0; t < mesh.triangle_count(); ++t)
+      flatten(t);
     return joined_.vertices > 0;
   }
 
@@ -108,6 +110,14 @@ private:
         degree_[at(v) - 4] = lines_.degree(v);
     for (const LocalIndex v : around)
       look_at(left, v);
+  }
+  /// Makes one line of the three around a triangle that is less high than the triangles of the mesh can show.
+  void flatten(LocalIndex t) {
+    const HalfEdge e = 3 * t;
+    const LocalIndex a = map_.mesh().origin(e), b = map_.mesh().origin(e + 1), c = map_.mesh().origin(e + 2);
+    if (std::min({a, b, c}) >= 4 && (lines_.has_curve(a) || lines_.has_curve(b) || lines_.has_curve(c)) &&
+        lines_.flatten(t, std::fmin(reach(a, b), reach(b, c))))
+      ++joined_.vertices;
   }
   bool moves(LocalIndex from, LocalIndex to) {
     const double way = geometry::length(place(to) - place(from));

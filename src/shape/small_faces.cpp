@@ -20,6 +20,9 @@ using geometry::Piece;
 using geometry::RegionLoss;
 using geometry::Vec2;
 
+// [least width] The rest between regions is a gap, which nobody has asked for, below this width.
+constexpr double widest_gap = 3.5;
+
 // Each round gives away at least the smallest face, and usually nearly all.
 constexpr int most_rounds = 100;
 
@@ -172,7 +175,8 @@ bool absorb_once(std::vector<LabelledPiece>& pieces, double least_perimeter, dou
   std::vector<Faces::Walk> small;
   for (const Faces::Walk& walk : faces.walks())
     if (faces.label(walk.firsts[0]) >= 0 && walk.area > 0 &&
-        (walk.perimeter < least_perimeter || 2 * walk.area < least_width * walk.perimeter))
+        (walk.perimeter < least_perimeter ||
+         2 * walk.area < (faces.label(walk.firsts[0]) == 0 ? widest_gap : 1) * least_width * walk.perimeter))
       small.push_back(walk);
   std::sort(small.begin(), small.end(), [](const Faces::Walk& a, const Faces::Walk& b) {
     return std::tie(a.area, a.firsts[0]) < std::tie(b.area, b.firsts[0]);
