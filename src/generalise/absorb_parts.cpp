@@ -102,8 +102,7 @@ private:
           }
       set_area(part);
       const bool is_crumb = perimeter < GeneraliseRules::smallest_face;
-      const double narrowest = map_.label(t) == 0 ? GeneraliseRules::narrowest_rest : GeneraliseRules::narrowest_face;
-      if ((!is_crumb && 2 * part.area >= narrowest * width) || is_held(part))
+      if ((!is_crumb && 2 * part.area >= GeneraliseRules::narrowest_face * width) || is_held(part))
         continue;
       part.reason = is_crumb ? LossReason::crumb : LossReason::sliver;
       parts.push_back(std::move(part));

@@ -18,7 +18,8 @@ class ArcFinder {
 public:
   ArcFinder(const RegionMap& map, const geometry::InnerCurves& curves, const geometry::Boundary& boundary)
       : map_(map), mesh_(map.mesh()), curves_(curves), boundary_(boundary), degree_(at(mesh_.vertex_count()), 0),
-        on_rim_(degree_.size(), 0), is_node_(degree_.size(), 0), is_corner_(degree_.size(), 0), is_used_(at(3 * mesh_.triangle_count()), 0) {}
+        on_rim_(degree_.size(), 0), is_node_(degree_.size(), 0), is_corner_(degree_.size(), 0),
+        is_used_(at(3 * mesh_.triangle_count()), 0) {}
 
   Partition result() {
     find_nodes();

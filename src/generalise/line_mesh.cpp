@@ -13,6 +13,13 @@ namespace trime::generalise {
 using geometry::Vec2;
 using HalfEdge = Triangulation::HalfEdge;
 
+namespace {
+
+// [longest edge] Triangles that are less high are nearly flat.
+constexpr double flat = 0.05;
+
+} // namespace
+
 LineMesh::LineMesh(const RegionMap& map, std::span<const std::array<int, 2>> pairs)
     : mesh_(map.mesh()), pairs_(pairs), triangles_of_(at(mesh_.vertex_count())),
       is_changed_(at(mesh_.vertex_count()), 0) {
@@ -96,13 +103,22 @@ double LineMesh::area(const Triangle& t) const {
   return 0.5 * cross(mesh_.point(t.corners[1]) - a, mesh_.point(t.corners[2]) - a);
 }
 
+/// No triangle may turn over, or become nearly flat between three lines.
 bool LineMesh::keeps_orientation(LocalIndex from, LocalIndex to) const {
+  const auto becomes_line = [&](LocalIndex a, LocalIndex b) {
+    return is_line(a, b) || (a == from && is_edge(to, b) && is_line(to, b)) ||
+           (b == from && is_edge(to, a) && is_line(to, a));
+  };
   for (const LocalIndex t : triangles_of_[at(from)]) {
-    std::array<LocalIndex, 3> corners = triangles_[at(t)].corners;
     if (triangles_[at(t)].has(to))
       continue;
+    const std::array<LocalIndex, 3> given = triangles_[at(t)].corners;
+    std::array<LocalIndex, 3> corners = given;
     std::replace(corners.begin(), corners.end(), from, to);
-    if (geometry::orient2d(mesh_.point(corners[0]), mesh_.point(corners[1]), mesh_.point(corners[2])) <= 0)
+    const Vec2 a = mesh_.point(corners[0]), b = mesh_.point(corners[1]), c = mesh_.point(corners[2]);
+    const double longest = std::fmax(squared_length(b - a), std::fmax(squared_length(c - b), squared_length(a - c)));
+    if (geometry::orient2d(a, b, c) <= 0 || (cross(b - a, c - a) < flat * longest && becomes_line(given[0], given[1]) &&
+                                             becomes_line(given[1], given[2]) && becomes_line(given[2], given[0])))
       return false;
   }
   return true;
@@ -204,7 +220,7 @@ bool LineMesh::flatten(LocalIndex t, double reach) {
   const auto may_border = [&](LocalIndex from, LocalIndex to) {
     const int other = left_of(to, from), its = curve_on(from, to);
     const std::array<int, 2> pair{std::min(beyond, other), std::max(beyond, other)};
-    return other != RegionMap::outside && (curve < 0 || its < 0 || its == curve) &&
+    return other != RegionMap::outside && (curve < 0 || its < 0) &&
            (pair[0] == pair[1] || std::ranges::binary_search(pairs_, pair));
   };
   if (beyond == RegionMap::outside || !may_border(b, apex) || !may_border(apex, a) ||

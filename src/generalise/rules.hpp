@@ -62,8 +62,6 @@ struct GeneraliseRules {
   static constexpr double smallest_face = 3;
   /// [h] So does a part whose area is smaller than this times half of its perimeter. Not measured.
   static constexpr double narrowest_face = 0.1;
-  /// [h] The same for a part of the rest, which is a gap between regions that nobody has asked for. Not measured.
-  static constexpr double narrowest_rest = 0.35;
   /// [h] Narrow passages of a region, and narrow ends of it at the boundary, belong to the region next to them if they
   /// are narrower than this. Not measured.
   static constexpr double narrow_region = 0.35;

@@ -12,8 +12,6 @@
 #include "geometry/inner_wedges.hpp"
 #include "trime/core/types.hpp"
 
-#include <string> //DBG
-#include <cstdio> //DBG
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -104,7 +102,7 @@ public:
     while (!queue.empty() && left_ > least_left_) {
       const auto [area, k] = *queue.begin();
       queue.erase(queue.begin());
-      if (!has_way(k, area))
+      if (!has_way(k, area) || becomes_straight(k))
         continue; // until a neighbour goes
       is_gone_[k] = 1;
       --left_;
@@ -149,6 +147,15 @@ private:
     return area < GeneraliseRules::vertex_area * h * h && chord.a != chord.b &&
            geometry::squared_distance(place(k), chord) <= most * most &&
            tree_.is_empty({vertices_[previous_[k]], vertices_[k], vertices_[next_[k]]});
+  }
+
+  /// Would an arc that must bend keep only a vertex on the line between its ends? Such vertices were added to edges.
+  bool becomes_straight(std::size_t k) const {
+    if (arc_.closed || least_left_ != 3 || left_ != 4)
+      return false;
+    const std::size_t other = next_[0] == k ? next_[k] : next_[0];
+    const Vec2 a = place(0), along = place(vertices_.size() - 1) - a;
+    return std::fabs(cross(along, place(other) - a)) < 1e-6 * squared_length(along);
   }
 
   InnerArc result() const {
@@ -243,13 +250,6 @@ geometry::InnerCurves thin_arcs(const geometry::InnerCurves& curves, const geome
 // Arcs that have merged become simpler, and then further parts may be narrow.
 constexpr int most_rounds = 6;
 
-void dump(const char* name, const Partition& p) { //DBG
-  const char* to = getenv("ZIP_DUMP"); //DBG
-  if (!to) return; //DBG
-  FILE* f = fopen((std::string(to) + name).c_str(), "w"); //DBG
-  for (const auto& a : p.curves.arcs) { for (const auto& q : a.pieces) fprintf(f, "%.17g %.17g %.17g %.17g %d %d %d\n", q.start.x, q.start.y, q.end.x, q.end.y, a.left, a.right, q.part); fprintf(f, "\n"); } //DBG
-  fclose(f); //DBG
-} //DBG
 /// Joins curves with the interfaces that they follow. Returns whether any were joined.
 bool snap(Partition& partition, const ArcRequest& request) {
   SnappedArcs snapped = snapped_arcs(partition.curves.arcs, partition.boundary, request.size, request.lattice);
@@ -270,13 +270,10 @@ Partition without_slivers(Partition given, const ArcRequest& request, std::span<
       made = std::move(*large);
       has_absorbed = true;
     }
-    dump("a", made); //DBG
     const bool has_snapped = snap(made, request);
-    dump("s", made); //DBG
     std::optional<Partition> zipped = zip_lines(made, request, pairs);
     if (zipped)
       made = std::move(*zipped);
-    dump("z", made); //DBG
     if (!large && !has_snapped && !zipped)
       break;
   }
@@ -319,9 +316,7 @@ Partition simplify_partition(const geometry::InnerCurves& curves, const geometry
     snap(made, request);
     given = made.curves.arcs;
   }
-  dump("t", made); //DBG
   cut_wedges(made.curves, wedges, made.boundary, request);
-  dump("c", made); //DBG
   geometry::set_wedges(made.curves.arcs, made.boundary);
   return made;
 }

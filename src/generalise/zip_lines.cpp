@@ -24,7 +24,8 @@ using Line = LineMesh::Line;
 class LineZipper {
 public:
   LineZipper(const RegionMap& map, const Partition& given, std::span<const std::array<int, 2>> pairs)
-      : map_(map), given_(given), lines_(map, pairs), spread_(vertex_count(), 0), on_rim_(vertex_count(), 0), is_end_(vertex_count(), 0) {
+      : map_(map), given_(given), lines_(map, pairs), spread_(vertex_count(), 0), on_rim_(vertex_count(), 0),
+        is_end_(vertex_count(), 0) {
     for (const RegionMap::Strand& strand : map.strands())
       for (const LocalIndex v : {strand.from, strand.to})
         if (strand.arc < 0)
@@ -119,10 +120,17 @@ private:
         lines_.flatten(t, std::fmin(reach(a, b), reach(b, c))))
       ++joined_.vertices;
   }
+  /// Would the two edges of a line at a vertex farther away become one, with an end there?
+  bool leaves_spur(LocalIndex from, LocalIndex to) const {
+    return std::ranges::any_of(lines_.neighbours(from), [&](LocalIndex v) {
+      return v != to && v >= 4 && degree(v) == 2 && lines_.is_edge(v, to) && lines_.is_line(v, from) &&
+             lines_.is_line(v, to) && !(geometry::length(place(v) - place(to)) < reach(v, to));
+    });
+  }
   bool moves(LocalIndex from, LocalIndex to) {
     const double way = geometry::length(place(to) - place(from));
     if (rank(from) == 3 || (map_.is_held(to) && !map_.is_kept(to)) || !(spread_[at(from)] + way < reach(from, to)) ||
-        !lines_.contract(from, to))
+        leaves_spur(from, to) || !lines_.contract(from, to))
       return false;
     spread_[at(to)] = std::fmax(spread_[at(to)], spread_[at(from)] + way);
     degree_[at(to) - 4] = lines_.degree(to);
@@ -220,7 +228,7 @@ private:
   std::vector<char> on_rim_;   // by vertex
   std::vector<char> is_end_;   // by vertex: a free end of a curve
   std::set<std::tuple<double, LocalIndex, LocalIndex>> queue_; // edges that may be contracted, by their lengths
-  std::vector<int> degree_;    // by vertex, beyond the corners of the box
+  std::vector<int> degree_;                                    // by vertex, beyond the corners of the box
   std::vector<Line> all_;
   JoinedLines joined_;
 };

@@ -20,9 +20,6 @@ using geometry::Piece;
 using geometry::RegionLoss;
 using geometry::Vec2;
 
-// [least width] The rest between regions is a gap, which nobody has asked for, below this width.
-constexpr double widest_gap = 3.5;
-
 // Each round gives away at least the smallest face, and usually nearly all.
 constexpr int most_rounds = 100;
 
@@ -40,7 +37,7 @@ public:
   }
 
   struct Walk {
-    std::vector<Side> firsts; ///< one side of each of the walks
+    std::vector<Side> firsts;       ///< one side of each of the walks
     double area = 0, perimeter = 0; ///< the area is negative around a hole
   };
   const std::vector<Walk>& walks() const { return walks_; }
@@ -150,8 +147,8 @@ private:
   std::vector<Walk> walks_;
 };
 
-/// Returns the label across the longest part of the border without a curve, the lowest one of equally long parts; -1 if there is only
-/// the outside.
+/// Returns the label across the longest part of the border without a curve, the lowest one of equally long parts; -1 if
+/// there is only the outside.
 int widest_neighbour(const Faces& faces, const Faces::Walk& walk, const std::vector<LabelledPiece>& pieces) {
   std::map<int, double> lengths;
   faces.for_each_side(walk, [&](Side side) {
@@ -169,14 +166,13 @@ int widest_neighbour(const Faces& faces, const Faces::Walk& walk, const std::vec
 }
 
 /// Gives away the smallest faces, as long as none is next to another one of this round.
-bool absorb_once(std::vector<LabelledPiece>& pieces, double least_perimeter, double least_width,
-                 std::vector<RegionLoss>& absorbed) {
+bool absorb_once(std::vector<LabelledPiece>& pieces, const LeastFace& least, AbsorbedFaces& absorbed) {
   const Faces faces(pieces);
   std::vector<Faces::Walk> small;
   for (const Faces::Walk& walk : faces.walks())
     if (faces.label(walk.firsts[0]) >= 0 && walk.area > 0 &&
-        (walk.perimeter < least_perimeter ||
-         2 * walk.area < (faces.label(walk.firsts[0]) == 0 ? widest_gap : 1) * least_width * walk.perimeter))
+        (walk.perimeter < least.perimeter ||
+         2 * walk.area < (faces.label(walk.firsts[0]) == 0 ? least.gap : least.width) * walk.perimeter))
       small.push_back(walk);
   std::sort(small.begin(), small.end(), [](const Faces::Walk& a, const Faces::Walk& b) {
     return std::tie(a.area, a.firsts[0]) < std::tie(b.area, b.firsts[0]);
@@ -193,9 +189,9 @@ bool absorb_once(std::vector<LabelledPiece>& pieces, double least_perimeter, dou
       is_changed[side / 2] = 1;
       labels.emplace_back(side, label);
     });
-    absorbed.push_back({faces.label(walk.firsts[0]), label,
-                        walk.perimeter < least_perimeter ? LossReason::crumb : LossReason::sliver, walk.area, 1,
-                        walk.area, pieces[walk.firsts[0] / 2].piece.start});
+    absorbed.faces.push_back({faces.label(walk.firsts[0]), label,
+                              walk.perimeter < least.perimeter ? LossReason::crumb : LossReason::sliver, walk.area, 1,
+                              walk.area, pieces[walk.firsts[0] / 2].piece.start});
   }
   for (const auto& [side, label] : labels)
     (side % 2 == 0 ? pieces[side / 2].left : pieces[side / 2].right) = label;
@@ -205,10 +201,10 @@ bool absorb_once(std::vector<LabelledPiece>& pieces, double least_perimeter, dou
 
 } // namespace
 
-AbsorbedFaces absorb_small_faces(std::vector<LabelledPiece>& pieces, double least_perimeter, double least_width) {
+AbsorbedFaces absorb_small_faces(std::vector<LabelledPiece>& pieces, const LeastFace& least) {
   AbsorbedFaces absorbed;
   for (int round = 0; round < most_rounds; ++round)
-    if (!absorb_once(pieces, least_perimeter, least_width, absorbed.faces))
+    if (!absorb_once(pieces, least, absorbed))
       break;
   for (const RegionLoss& loss : absorbed.faces) {
     ++absorbed.count;
