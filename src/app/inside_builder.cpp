@@ -177,6 +177,29 @@ void tell_of(const geometry::InnerCurves& curves, Log& log) {
   }
 }
 
+/// Says which small faces belong to others, and warns of gaps.
+void tell_of(const geometry::AbsorbedFaces& absorbed, Log& log) {
+  if (absorbed.count > 0)
+    log.summary(
+        "{} part{} of regions with a total area of {:.6g} {} smaller or narrower than the triangles and {} to the "
+        "region next to {}; the largest has an area of {:.6g} and lies at {}. keep_features = true keeps all",
+        absorbed.count, absorbed.count == 1 ? "" : "s", absorbed.area, absorbed.count == 1 ? "is" : "are",
+        absorbed.count == 1 ? "belongs" : "belong", absorbed.count == 1 ? "it" : "them", absorbed.largest,
+        Place(absorbed.place, 6));
+  std::int64_t gaps = 0;
+  geometry::RegionLoss largest;
+  for (const geometry::RegionLoss& face : absorbed.faces)
+    if (face.loser == 0 && face.reason == geometry::LossReason::sliver) {
+      ++gaps;
+      largest = face.area > largest.area ? face : largest;
+    }
+  if (gaps > 0)
+    log.warning("{} gap{} between regions {} narrower than the triangles and {} closed; the largest has an area of "
+                "{:.6g} and passes {}. If {} meant, name the rest by 'rest' in [shape], or set keep_features = true",
+                gaps, gaps == 1 ? "" : "s", gaps == 1 ? "is" : "are", gaps == 1 ? "is" : "are", largest.area,
+                Place(largest.place, 6), gaps == 1 ? "it is" : "they are");
+}
+
 /// Says what regions share, what of them lies outside, and how large they are.
 void tell_of(const geometry::Regions& regions, Log& log) {
   if (!regions.any())
@@ -193,13 +216,7 @@ void tell_of(const geometry::Regions& regions, Log& log) {
   if (overlaps.size() > most_overlaps)
     log.warning("{} more pairs of regions share smaller areas, which belong to the first region of each pair",
                 overlaps.size() - most_overlaps);
-  if (const geometry::AbsorbedFaces& absorbed = regions.absorbed; absorbed.count > 0)
-    log.summary(
-        "{} part{} of regions with a total area of {:.6g} {} smaller or narrower than the triangles and {} to the "
-        "region next to {}; the largest has an area of {:.6g} and lies at {}. keep_features = true keeps all",
-        absorbed.count, absorbed.count == 1 ? "" : "s", absorbed.area, absorbed.count == 1 ? "is" : "are",
-        absorbed.count == 1 ? "belongs" : "belong", absorbed.count == 1 ? "it" : "them", absorbed.largest,
-        Place(absorbed.place, 6));
+  tell_of(regions.absorbed, log);
   for (std::size_t k = 1; k < regions.names.size(); ++k)
     if (regions.outside[k] > 0)
       log.summary("region '{}': an area of {:.6g} lies outside of the shape and is left out", regions.names[k],

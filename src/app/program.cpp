@@ -98,6 +98,18 @@ std::string estimate(const RunOptions& options, double points, const geometry::B
   return text + fmt::format("output: {} (not written)", options.output.file.path(".h5"));
 }
 
+/// Warns of bad triangles that a sharp corner between curves excuses.
+void warn_of_bad_triangles(const mesh::QualitySummary& quality, Log& log) {
+  if (quality.bad_triangles == 0 || quality.worst_triangles.empty())
+    return;
+  const mesh::BadTriangle& worst = quality.worst_triangles.front();
+  log.warning("{} triangle{} an alpha above 2, the worst {:.3g} at {}, next to the corner {} of {:.3g} degrees: curves "
+              "or interfaces come near each other there. Let them meet, or move them apart, or use more points there "
+              "(size_at, or a region's size)",
+              quality.bad_triangles, quality.bad_triangles == 1 ? " has" : "s have", worst.alpha, Place(worst.place, 6),
+              Place(worst.corner, 6), worst.corner_degrees);
+}
+
 /// Prints the warnings that a run would print about the boundary.
 void print_warnings(const boundary::FeatureReport& features, const std::vector<std::string>& part_names, Log& log) {
   constexpr boundary::Occasion occasion = boundary::Occasion::outlook;
@@ -393,6 +405,8 @@ void MeshRun::print_results(const RunFacts& facts) const {
   print_cells(series_.cells(), job_.log);
   if (!is_complete(facts.result))
     job_.log.warning("{}", incompleteness(facts.result, job_.options.write));
+  else if (!input_.domain().curves().empty())
+    warn_of_bad_triangles(facts.result.quality, job_.log);
 }
 
 ExitCode MeshRun::run() {

@@ -225,13 +225,14 @@ private:
     return a == b || std::ranges::binary_search(pairs_, pair);
   }
 
-  /// The region across the longest border that may touch all others around the part.
+  /// The region across the longest border that may touch all others around the part. The border between a part and
+  /// the region that gets it goes. Edges on curves of the user stay, so they do not count.
   int winner_of(const Part& part) const {
     std::map<int, double> lengths;
     for (const LocalIndex t : part.triangles)
       for (HalfEdge e = 3 * t; e < 3 * t + 3; ++e)
         if (map_.is_wall(e) && map_.label_beside(e) != RegionMap::outside)
-          lengths[map_.label_beside(e)] += map_.length(e);
+          lengths[map_.label_beside(e)] += map_.curve_on(e) < 0 ? map_.length(e) : 0;
     int best = RegionMap::outside;
     double longest = 0;
     for (const auto& [label, length] : lengths)

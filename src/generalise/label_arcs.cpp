@@ -18,7 +18,8 @@ class ArcFinder {
 public:
   ArcFinder(const RegionMap& map, const geometry::InnerCurves& curves, const geometry::Boundary& boundary)
       : map_(map), mesh_(map.mesh()), curves_(curves), boundary_(boundary), degree_(at(mesh_.vertex_count()), 0),
-        on_rim_(degree_.size(), 0), is_node_(degree_.size(), 0), is_used_(at(3 * mesh_.triangle_count()), 0) {}
+        on_rim_(degree_.size(), 0), is_node_(degree_.size(), 0), is_corner_(degree_.size(), 0),
+        is_used_(at(3 * mesh_.triangle_count()), 0) {}
 
   Partition result() {
     find_nodes();
@@ -39,36 +40,36 @@ private:
   /// Does an edge belong to an arc inside? The edges of curves of the user do, whatever lies on both sides.
   bool is_inner(HalfEdge e) const {
     const int left = map_.label(Triangulation::triangle(e)), right = map_.label_beside(e);
-    return left != RegionMap::outside && right != RegionMap::outside && (left != right || is_on_curve(e));
-  }
-  bool is_on_curve(HalfEdge e) const {
-    if (!mesh_.is_constrained(e))
-      return false;
-    const RegionMap::Strand& strand = map_.strands()[at(mesh_.mark_of_edge(e))];
-    return strand.arc >= 0 && curves_.arcs[static_cast<std::size_t>(strand.arc)].pieces[strand.piece].part >= 0;
+    return left != RegionMap::outside && right != RegionMap::outside && (left != right || map_.curve_on(e) >= 0);
   }
   /// From a node along an edge that belongs to no arc yet.
   bool is_free(HalfEdge e) const { return is_used_[at(e)] == 0 && is_inner(e); }
   void use(HalfEdge e) { is_used_[at(e)] = is_used_[at(mesh_.twin(e))] = 1; }
 
-  std::pair<int, int> regions_at(HalfEdge e) const {
-    return std::minmax(map_.label(Triangulation::triangle(e)), int{map_.label_beside(e)});
+  /// What does not change along an arc: the regions on both sides, the lower one first, and the curve.
+  std::array<int, 3> sides_of(HalfEdge e) const {
+    const auto [low, high] = std::minmax({map_.label(Triangulation::triangle(e)), map_.label_beside(e)});
+    return {low, high, map_.curve_on(e)};
   }
 
-  /// A node: on the boundary, where arcs branch or end, and where other regions begin. Ends of arcs of the user and of
-  /// circles are nodes already.
+  /// A node: on the boundary, where arcs branch or end, and where other regions or another curve begin. Ends of arcs of
+  /// the user and of circles are nodes already; where an interface that ended there has gone, the curve goes on.
   void find_nodes() {
-    std::vector<std::pair<int, int>> regions(degree_.size());
+    std::vector<std::array<int, 3>> sides(degree_.size());
+    std::vector<char> has_lost(degree_.size(), 0); // an interface
     for (const RegionMap::Strand& strand : map_.strands())
       if (strand.arc < 0)
         on_rim_[at(strand.from)] = on_rim_[at(strand.to)] = 1;
     for (HalfEdge e = 0; e < 3 * mesh_.triangle_count(); ++e) {
-      if (!is_inner(e))
-        continue;
       const LocalIndex v = mesh_.origin(e);
+      if (!is_inner(e)) {
+        if (mesh_.is_constrained(e) && map_.strands()[at(mesh_.mark_of_edge(e))].arc >= 0)
+          has_lost[at(v)] = 1;
+        continue;
+      }
       if (degree_[at(v)]++ == 0)
-        regions[at(v)] = regions_at(e);
-      else if (regions[at(v)] != regions_at(e))
+        sides[at(v)] = sides_of(e);
+      else if (sides[at(v)] != sides_of(e))
         is_node_[at(v)] = 1;
     }
     for (std::size_t v = 0; v < degree_.size(); ++v)
@@ -76,10 +77,12 @@ private:
     for (const RegionMap::Strand& strand : map_.strands())
       if (strand.arc >= 0) {
         const InnerArc& arc = curves_.arcs[static_cast<std::size_t>(strand.arc)];
-        if (const Piece& piece = arc.pieces[strand.piece]; !arc.closed && (piece.part >= 0 || piece.circular)) {
-          hold_end(strand.from, arc);
-          hold_end(strand.to, arc);
-        }
+        const Piece& piece = arc.pieces[strand.piece];
+        for (const LocalIndex v : {strand.from, strand.to})
+          if (!arc.closed && (piece.circular || (piece.part >= 0 && has_lost[at(v)] == 0)))
+            hold_end(v, arc);
+        if (piece.corner && mesh_.point(strand.from) == piece.start)
+          is_corner_[at(strand.from)] = 1;
       }
   }
   void hold_end(LocalIndex v, const InnerArc& arc) {
@@ -141,8 +144,9 @@ private:
     Piece piece;
     piece.start = mesh_.point(mesh_.origin(e));
     piece.end = mesh_.point(mesh_.target(e));
-    piece.part = -1;
-    piece.corner = map_.is_kept(mesh_.origin(e));
+    piece.part = map_.curve_on(e);
+    const LocalIndex from = mesh_.origin(e);
+    piece.corner = map_.is_kept(from) || (piece.part >= 0 && is_corner_[at(from)] != 0);
     return piece;
   }
 
@@ -165,8 +169,8 @@ private:
       if (is_node_[at(mesh_.target(e))] != 0 || mesh_.target(e) == mesh_.origin(first))
         break;
     }
-    if (arc.left > arc.right)
-      turn(arc);
+    if (arc.pieces.front().part >= 0 ? mesh_.mark(first) < 0 : arc.left > arc.right)
+      turn(arc); // curves have the direction that they were given
     return arc;
   }
 
@@ -220,6 +224,7 @@ private:
   const geometry::Boundary& boundary_;
   std::vector<int> degree_;            // by vertex: edges of arcs
   std::vector<char> on_rim_, is_node_; // by vertex
+  std::vector<char> is_corner_;        // by vertex: a curve was given a corner there
   std::vector<char> is_used_;          // by half-edge
 };
 

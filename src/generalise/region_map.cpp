@@ -156,18 +156,24 @@ bool RegionMap::is_kept(LocalIndex v) const {
                             geometry::lexicographically_less);
 }
 
-/// Holds what the user asked for, curves of the user, and arcs of circles.
+/// Holds what the user asked for, and arcs of circles.
 void RegionMap::hold_vertices() {
   held_.assign(size_.size(), 0);
   for (std::size_t v = 4; v < size_.size(); ++v)
     held_[v] = is_kept(static_cast<LocalIndex>(v));
   for (const Strand& strand : strands_) {
     const Piece& own = piece(strand);
-    const bool is_curve = strand.arc >= 0 && (own.part >= 0 || own.circular);
     for (const LocalIndex v : {strand.from, strand.to})
-      if (is_curve || (own.circular && mesh_.point(v) != own.start && mesh_.point(v) != own.end))
+      if (own.circular && (strand.arc >= 0 || (mesh_.point(v) != own.start && mesh_.point(v) != own.end)))
         held_[at(v)] = 1;
   }
+}
+
+int RegionMap::curve_on(HalfEdge e) const {
+  if (!mesh_.is_constrained(e))
+    return -1;
+  const Strand& strand = strands_[at(mesh_.mark_of_edge(e))];
+  return strand.arc < 0 ? -1 : piece(strand).part;
 }
 
 int RegionMap::given_label(HalfEdge e) const {
@@ -189,14 +195,18 @@ void RegionMap::set_labels() {
     }
     valid_ = valid_ && labels_[at(t)] == label;
   };
+  const auto is_border = [this](HalfEdge e) {
+    return mesh_.is_constrained(e) && mesh_.twin(e) != Triangulation::none &&
+           given_label(e) != given_label(mesh_.twin(e));
+  };
   for (HalfEdge e = 0; e < 3 * mesh_.triangle_count(); ++e)
-    if (mesh_.is_constrained(e))
+    if (is_border(e))
       set(Triangulation::triangle(e), given_label(e));
-  while (!open.empty()) {
+  while (!open.empty()) { // curves with one region on both sides end nothing
     const LocalIndex t = open.back();
     open.pop_back();
     for (HalfEdge e = 3 * t; e < 3 * t + 3; ++e)
-      if (!mesh_.is_constrained(e) && mesh_.twin(e) != Triangulation::none)
+      if (!is_border(e) && mesh_.twin(e) != Triangulation::none)
         set(Triangulation::triangle(mesh_.twin(e)), labels_[at(t)]);
   }
 }

@@ -54,6 +54,8 @@ public:
   bool is_wall(HalfEdge e) const { return label(Triangulation::triangle(e)) != label_beside(e); }
   /// Returns the region that a strand was given on the side of a half-edge on it.
   int given_label(HalfEdge e) const;
+  /// Returns the curve of the user on an edge inside the shape, as an index into InnerCurves::names; -1 if none is.
+  int curve_on(HalfEdge e) const;
   double area(LocalIndex triangle) const;
   double length(HalfEdge e) const {
     return geometry::length(mesh_.point(mesh_.target(e)) - mesh_.point(mesh_.origin(e)));

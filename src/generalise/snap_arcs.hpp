@@ -21,6 +21,16 @@ struct JoinedLines {
   geometry::Vec2 place{};      ///< where that vertex is
   std::int64_t loose_ends = 0; ///< ends of curves beyond another curve or an interface that were left out
   double longest_end = 0;      ///< length of the longest of them
+  /// Takes in what was joined later.
+  void add(const JoinedLines& later) {
+    vertices += later.vertices;
+    loose_ends += later.loose_ends;
+    longest_end = longest_end > later.longest_end ? longest_end : later.longest_end;
+    if (later.farthest > farthest) {
+      farthest = later.farthest;
+      place = later.place;
+    }
+  }
 };
 
 /// Arcs after some of them were joined.

@@ -8,6 +8,7 @@
 #include "generalise/smooth_arcs.hpp"
 #include "generalise/snap_arcs.hpp"
 #include "generalise/vertex_tree.hpp"
+#include "generalise/zip_lines.hpp"
 #include "geometry/inner_wedges.hpp"
 #include "trime/core/types.hpp"
 
@@ -101,7 +102,7 @@ public:
     while (!queue.empty() && left_ > least_left_) {
       const auto [area, k] = *queue.begin();
       queue.erase(queue.begin());
-      if (!has_way(k, area))
+      if (!has_way(k, area) || becomes_straight(k))
         continue; // until a neighbour goes
       is_gone_[k] = 1;
       --left_;
@@ -146,6 +147,15 @@ private:
     return area < GeneraliseRules::vertex_area * h * h && chord.a != chord.b &&
            geometry::squared_distance(place(k), chord) <= most * most &&
            tree_.is_empty({vertices_[previous_[k]], vertices_[k], vertices_[next_[k]]});
+  }
+
+  /// Would an arc that must bend keep only a vertex on the line between its ends? Such vertices were added to edges.
+  bool becomes_straight(std::size_t k) const {
+    if (arc_.closed || least_left_ != 3 || left_ != 4)
+      return false;
+    const std::size_t other = next_[0] == k ? next_[k] : next_[0];
+    const Vec2 a = place(0), along = place(vertices_.size() - 1) - a;
+    return std::fabs(cross(along, place(other) - a)) < 1e-6 * squared_length(along);
   }
 
   InnerArc result() const {
@@ -240,20 +250,48 @@ geometry::InnerCurves thin_arcs(const geometry::InnerCurves& curves, const geome
 // Arcs that have merged become simpler, and then further parts may be narrow.
 constexpr int most_rounds = 6;
 
+/// Joins curves with the interfaces and curves that they follow. Returns whether any were joined.
+bool snap(Partition& partition, const ArcRequest& request) {
+  const geometry::InnerCurves& curves = partition.curves;
+  SnappedArcs snapped =
+      snapped_arcs(curves.arcs, partition.boundary, {request.size, request.lattice, request.kept, curves.kinds});
+  partition.curves.arcs = std::move(snapped.arcs);
+  partition.joined.add(snapped.joined);
+  return snapped.joined.vertices + snapped.joined.loose_ends > 0;
+}
+
+/// Gives small faces away and joins curves with interfaces, in turns: a face between two interfaces may go only as a
+/// whole, so the faces come first, whatever curves lead through them. Curves that were joined may leave further ones.
+Partition without_slivers(Partition given, const ArcRequest& request, std::span<const std::array<int, 2>> pairs,
+                          bool& has_absorbed) {
+  Partition made = std::move(given);
+  for (int round = 0; round < most_rounds; ++round) {
+    std::optional<Partition> large = absorb_parts(made.curves, made.boundary, request, pairs, SmallParts::faces);
+    if (large) {
+      large->joined = made.joined;
+      made = std::move(*large);
+      has_absorbed = true;
+    }
+    const bool has_snapped = snap(made, request);
+    std::optional<Partition> zipped = zip_lines(made, request, pairs);
+    if (zipped)
+      made = std::move(*zipped);
+    if (!large && !has_snapped && !zipped)
+      break;
+  }
+  return made;
+}
+
 } // namespace
 
 Partition simplify_partition(const geometry::InnerCurves& curves, const geometry::Boundary& boundary,
                              const ArcRequest& request, std::span<const std::array<int, 2>> pairs) {
-  geometry::InnerCurves joined = curves;
-  SnappedArcs snapped =
-      snapped_arcs(curves.arcs, boundary, {request.size, request.lattice, request.kept, curves.kinds});
-  joined.arcs = std::move(snapped.arcs);
-  std::optional<Partition> large = absorb_parts(joined, boundary, request, pairs, SmallParts::faces);
-  Partition made = large ? std::move(*large) : Partition{std::move(joined), boundary, false};
+  bool has_absorbed = false;
+  Partition made = without_slivers({curves, boundary}, request, pairs, has_absorbed);
   made.curves.on_boundary.clear();
   made.curves.outside.clear();
   std::vector<geometry::NarrowWedge> wedges = geometry::narrow_wedges(made.curves.arcs, made.boundary);
-  if (large)
+  if (has_absorbed)
     std::erase_if(wedges, [&](const geometry::NarrowWedge& wedge) {
       const std::array<int, 2> pair{std::min(wedge.left_region, wedge.right_region),
                                     std::max(wedge.left_region, wedge.right_region)};
@@ -275,12 +313,13 @@ Partition simplify_partition(const geometry::InnerCurves& curves, const geometry
     std::optional<Partition> wide = absorb_parts(made.curves, made.boundary, beyond_tips, pairs, SmallParts::and_necks);
     if (!wide)
       break;
+    wide->joined = made.joined;
     made = std::move(*wide);
+    snap(made, request);
     given = made.curves.arcs;
   }
   cut_wedges(made.curves, wedges, made.boundary, request);
   geometry::set_wedges(made.curves.arcs, made.boundary);
-  made.joined = snapped.joined;
   return made;
 }
 

@@ -37,6 +37,7 @@ public:
   /// @throws GeometryError if a curve that may not be clipped lies outside
   void look_at(LocalIndex piece, const Side& left, const Side& right, geometry::Vec2 middle);
 
+  bool is_on_curve(const Arrangement::Piece& piece) const { return curve_of(piece).curve >= 0; }
   /// Returns the pieces: those of curves in the direction of the curve, others with the lower region on the left.
   const std::vector<CurvePiece>& pieces() const { return pieces_; }
   /// Returns the arcs together with the names and lengths of the curves. Frees the pieces.

@@ -50,6 +50,9 @@ Part cutting_part(const Frame& frame) {
   return Part::rectangle("the border of the container", box, frame);
 }
 
+// [least width] The rest between regions is a gap if it is narrower and has no name.
+constexpr double widest_gap = 3.5;
+
 class BoundaryMaker {
 public:
   BoundaryMaker(const Region& region, std::span<const Part> parts, const Frame& frame, const InnerParts& inner)
@@ -281,14 +284,17 @@ void BoundaryMaker::keep_divided(std::vector<std::array<Side, 2>>& sides) {
   if (division.least_perimeter > 0 || division.least_width > 0) {
     std::vector<LabelledPiece> pieces;
     const auto label = [](const Side& side) { return side.is_region ? side.region : -1; };
-    for (std::size_t k = 0; k < sides.size(); ++k)
-      if (const auto& [left, right] = sides[k]; label(left) != label(right)) {
-        const Arrangement::Piece& piece = arrangement_.pieces()[k];
+    for (std::size_t k = 0; k < sides.size(); ++k) {
+      const auto& [left, right] = sides[k];
+      const Arrangement::Piece& piece = arrangement_.pieces()[k];
+      const bool on_curve = inside_.is_on_curve(piece) && label(left) >= 0;
+      if (label(left) != label(right) || on_curve)
         pieces.push_back(
-            {piece.from, piece.to, piece_of(piece), label(left), label(right), static_cast<LocalIndex>(k)});
-      }
+            {piece.from, piece.to, piece_of(piece), label(left), label(right), static_cast<LocalIndex>(k), on_curve});
+    }
     std::vector<char> is_border(sides.size(), 0);
-    absorbed_ = absorb_small_faces(pieces, division.least_perimeter, division.least_width);
+    absorbed_ = absorb_small_faces(pieces, {division.least_perimeter, division.least_width,
+                                            (division.rest.empty() ? widest_gap : 1) * division.least_width});
     for (const LabelledPiece& piece : pieces) {
       auto& [left, right] = sides[static_cast<std::size_t>(piece.number)];
       is_border[static_cast<std::size_t>(piece.number)] = 1;

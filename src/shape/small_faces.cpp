@@ -26,32 +26,39 @@ constexpr int most_rounds = 100;
 /// One side of a piece: 2 k is the left side of piece k, along it; 2 k + 1 the right side, against it.
 using Side = std::size_t;
 
-/// The faces of the division as walks along their borders; a face with holes has several.
+/// The faces of the division as walks along their borders; a face with holes has several. A curve with one region on
+/// both sides divides no face: the walks along both of its sides are one.
 class Faces {
 public:
   explicit Faces(const std::vector<LabelledPiece>& pieces) : pieces_(pieces) {
     link();
     walk();
+    unite_walks();
   }
 
   struct Walk {
-    Side first;
+    std::vector<Side> firsts;       ///< one side of each of the walks
     double area = 0, perimeter = 0; ///< the area is negative around a hole
   };
   const std::vector<Walk>& walks() const { return walks_; }
 
   template <class Visit>
   void for_each_side(const Walk& walk, const Visit& visit) const {
-    Side side = walk.first;
-    do {
-      visit(side);
-      side = next_[side];
-    } while (side != walk.first);
+    for (const Side first : walk.firsts) {
+      Side side = first;
+      do {
+        visit(side);
+        side = next_[side];
+      } while (side != first);
+    }
   }
   int label(Side side) const {
     const LabelledPiece& piece = pieces_[side / 2];
     return side % 2 == 0 ? piece.left : piece.right;
   }
+
+  /// Does the side belong to a curve inside a face?
+  bool is_inside(Side side) const { return pieces_[side / 2].left == pieces_[side / 2].right; }
 
 private:
   LocalIndex start(Side side) const { return side % 2 == 0 ? pieces_[side / 2].from : pieces_[side / 2].to; }
@@ -88,16 +95,51 @@ private:
     for (Side first = 0; first < next_.size(); ++first) {
       if (is_seen[first] != 0)
         continue;
-      Walk found{first};
+      Walk found{{first}};
       const Vec2 origin = along(first).start;
       for_each_side(found, [&](Side side) {
         is_seen[side] = 1;
         const Piece piece = along(side);
         found.area += 0.5 * twice_area_under({piece}, origin);
-        found.perimeter += piece.length();
+        found.perimeter += is_inside(side) ? 0 : piece.length();
       });
-      walks_.push_back(found);
+      walks_.push_back(std::move(found));
     }
+  }
+
+  /// Makes one walk of those along the two sides of curves inside a face, in the place of the first one.
+  void unite_walks() {
+    std::vector<std::size_t> walk_of(next_.size()), root;
+    for (std::size_t k = 0; k < walks_.size(); ++k) {
+      root.push_back(k);
+      for_each_side(walks_[k], [&](Side side) { walk_of[side] = k; });
+    }
+    const auto root_of = [&root](std::size_t k) {
+      while (root[k] != k)
+        k = root[k] = root[root[k]];
+      return k;
+    };
+    for (Side side = 0; side < next_.size(); side += 2)
+      if (is_inside(side)) {
+        const auto [low, high] = std::minmax({root_of(walk_of[side]), root_of(walk_of[side + 1])});
+        root[high] = low;
+      }
+    std::size_t left = 0;
+    std::vector<std::size_t> place(walks_.size());
+    for (std::size_t k = 0; k < walks_.size(); ++k) {
+      if (const std::size_t other = root_of(k); other != k) {
+        Walk& whole = walks_[place[other]];
+        whole.firsts.push_back(walks_[k].firsts[0]);
+        whole.area += walks_[k].area;
+        whole.perimeter += walks_[k].perimeter;
+        continue;
+      }
+      place[k] = left;
+      if (left != k)
+        walks_[left] = std::move(walks_[k]);
+      ++left;
+    }
+    walks_.resize(left);
   }
 
   const std::vector<LabelledPiece>& pieces_;
@@ -105,11 +147,14 @@ private:
   std::vector<Walk> walks_;
 };
 
-/// Returns the label across the longest part of the border, the lowest one of equally long parts; -1 if there is only
-/// the outside.
+/// Returns the label across the longest part of the border without a curve, the lowest one of equally long parts; -1 if
+/// there is only the outside.
 int widest_neighbour(const Faces& faces, const Faces::Walk& walk, const std::vector<LabelledPiece>& pieces) {
   std::map<int, double> lengths;
-  faces.for_each_side(walk, [&](Side side) { lengths[faces.label(side ^ 1)] += pieces[side / 2].piece.length(); });
+  faces.for_each_side(walk, [&](Side side) {
+    if (!pieces[side / 2].on_curve)
+      lengths[faces.label(side ^ 1)] += pieces[side / 2].piece.length();
+  });
   int best = -1;
   double longest = 0;
   for (const auto& [label, length] : lengths)
@@ -121,16 +166,16 @@ int widest_neighbour(const Faces& faces, const Faces::Walk& walk, const std::vec
 }
 
 /// Gives away the smallest faces, as long as none is next to another one of this round.
-bool absorb_once(std::vector<LabelledPiece>& pieces, double least_perimeter, double least_width,
-                 std::vector<RegionLoss>& absorbed) {
+bool absorb_once(std::vector<LabelledPiece>& pieces, const LeastFace& least, AbsorbedFaces& absorbed) {
   const Faces faces(pieces);
   std::vector<Faces::Walk> small;
   for (const Faces::Walk& walk : faces.walks())
-    if (faces.label(walk.first) >= 0 && walk.area > 0 &&
-        (walk.perimeter < least_perimeter || 2 * walk.area < least_width * walk.perimeter))
+    if (faces.label(walk.firsts[0]) >= 0 && walk.area > 0 &&
+        (walk.perimeter < least.perimeter ||
+         2 * walk.area < (faces.label(walk.firsts[0]) == 0 ? least.gap : least.width) * walk.perimeter))
       small.push_back(walk);
   std::sort(small.begin(), small.end(), [](const Faces::Walk& a, const Faces::Walk& b) {
-    return std::tie(a.area, a.first) < std::tie(b.area, b.first);
+    return std::tie(a.area, a.firsts[0]) < std::tie(b.area, b.firsts[0]);
   });
   std::vector<char> is_changed(pieces.size(), 0);
   std::vector<std::pair<Side, int>> labels; // to be set
@@ -144,22 +189,22 @@ bool absorb_once(std::vector<LabelledPiece>& pieces, double least_perimeter, dou
       is_changed[side / 2] = 1;
       labels.emplace_back(side, label);
     });
-    absorbed.push_back({faces.label(walk.first), label,
-                        walk.perimeter < least_perimeter ? LossReason::crumb : LossReason::sliver, walk.area, 1,
-                        walk.area, pieces[walk.first / 2].piece.start});
+    absorbed.faces.push_back({faces.label(walk.firsts[0]), label,
+                              walk.perimeter < least.perimeter ? LossReason::crumb : LossReason::sliver, walk.area, 1,
+                              walk.area, pieces[walk.firsts[0] / 2].piece.start});
   }
   for (const auto& [side, label] : labels)
     (side % 2 == 0 ? pieces[side / 2].left : pieces[side / 2].right) = label;
-  std::erase_if(pieces, [](const LabelledPiece& piece) { return piece.left == piece.right; });
+  std::erase_if(pieces, [](const LabelledPiece& piece) { return piece.left == piece.right && !piece.on_curve; });
   return !labels.empty();
 }
 
 } // namespace
 
-AbsorbedFaces absorb_small_faces(std::vector<LabelledPiece>& pieces, double least_perimeter, double least_width) {
+AbsorbedFaces absorb_small_faces(std::vector<LabelledPiece>& pieces, const LeastFace& least) {
   AbsorbedFaces absorbed;
   for (int round = 0; round < most_rounds; ++round)
-    if (!absorb_once(pieces, least_perimeter, least_width, absorbed.faces))
+    if (!absorb_once(pieces, least, absorbed))
       break;
   for (const RegionLoss& loss : absorbed.faces) {
     ++absorbed.count;

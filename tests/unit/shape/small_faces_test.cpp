@@ -64,16 +64,32 @@ Faces layers(double low, double high) {
 
 TEST(SmallFaces, ASliverGoesToOneNeighbour) {
   Faces faces = layers(0.5, 0.502);
-  const geometry::AbsorbedFaces absorbed = absorb_small_faces(faces.pieces, 0, 0.01);
+  const geometry::AbsorbedFaces absorbed = absorb_small_faces(faces.pieces, {0, 0.01, 0.01});
   EXPECT_EQ(absorbed.count, 1);
   EXPECT_NEAR(absorbed.area, 0.002, 1e-15);
   EXPECT_EQ(faces.labels(), (std::set<int>{-1, 0, 2}));
   EXPECT_EQ(faces.pieces.size(), 9U); // one of its two borders is gone
 }
 
+TEST(SmallFaces, AGapIsAbsorbedWithTheCurveInIt) {
+  for (const bool has_gap : {true, false}) {
+    Faces faces;
+    faces.add_ring({{0, 0}, {1, 0}, {1, 0.5}, {0, 0.5}}, 1, -1);
+    faces.add_ring({{0, 0.53}, {1, 0.53}, {1, 1}, {0, 1}}, 2, -1);
+    faces.pieces[2].right = faces.pieces[4].right = 0; // the rest lies between both
+    faces.add({1, 0.5}, {1, 0.53}, 0, -1);
+    faces.add({0, 0.53}, {0, 0.5}, 0, -1);
+    faces.add({0.2, 0.5}, {0.8, 0.53}, 0, 0); // a curve across; a real division has nodes there
+    faces.pieces.back().on_curve = true;
+    faces.pieces[2].on_curve = true; // and one along the border below
+    EXPECT_EQ(absorb_small_faces(faces.pieces, {0, 0.01, has_gap ? 0.035 : 0.01}).count, has_gap ? 1 : 0);
+    EXPECT_EQ(faces.labels(), has_gap ? (std::set<int>{-1, 1, 2}) : (std::set<int>{-1, 0, 1, 2}));
+  }
+}
+
 TEST(SmallFaces, AWideLayerStays) {
   Faces faces = layers(0.5, 0.52);
-  EXPECT_EQ(absorb_small_faces(faces.pieces, 0.3, 0.01).count, 0);
+  EXPECT_EQ(absorb_small_faces(faces.pieces, {0.3, 0.01, 0.01}).count, 0);
   EXPECT_EQ(faces.pieces.size(), 10U);
 }
 
@@ -82,14 +98,14 @@ TEST(SmallFaces, CrumbsInCrumbs) {
   faces.add_ring({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, 0, -1);
   faces.add_ring({{0.5, 0.5}, {0.55, 0.5}, {0.55, 0.55}, {0.5, 0.55}}, 1, 0);
   faces.add_ring({{0.51, 0.51}, {0.54, 0.51}, {0.54, 0.54}, {0.51, 0.54}}, 2, 1);
-  EXPECT_EQ(absorb_small_faces(faces.pieces, 0.3, 0).count, 2);
+  EXPECT_EQ(absorb_small_faces(faces.pieces, {0.3, 0, 0}).count, 2);
   EXPECT_EQ(faces.labels(), (std::set<int>{-1, 0}));
 }
 
 TEST(SmallFaces, AnIslandOfOneRegionStays) {
   Faces faces;
   faces.add_ring({{0, 0}, {0.01, 0}, {0.01, 0.01}, {0, 0.01}}, 1, -1);
-  EXPECT_EQ(absorb_small_faces(faces.pieces, 1, 1).count, 0);
+  EXPECT_EQ(absorb_small_faces(faces.pieces, {1, 1, 1}).count, 0);
   EXPECT_EQ(faces.pieces.size(), 4U);
 }
 
