@@ -59,8 +59,8 @@ void check_regions(const StoredFile& file, const Mesh& mesh, Report& report);
 /// lost, less what it has gained, must be the area that it was given. @pre the ids of the triangles are in range
 void check_losses(const StoredFile& file, const Mesh& mesh, Report& report);
 
-/// @brief Checks the Voronoi cells, if the file has them: polygons, areas of cells and regions, faces, and that no length
-/// of a face is negative. @pre the ids of the triangles are in range
+/// @brief Checks the Voronoi cells, if the file has them: polygons, areas of cells and regions, faces, and that no
+/// length of a face is negative. @pre the ids of the triangles are in range
 void check_cells(const StoredFile& file, const Mesh& mesh, Report& report);
 
 /// Checks the sizes of points and facets.
