@@ -102,12 +102,12 @@ void warn_of_bad_triangles(const mesh::QualitySummary& quality, Log& log) {
   if (quality.bad_triangles == 0 || quality.worst_triangles.empty())
     return;
   const mesh::BadTriangle& worst = quality.worst_triangles.front();
-  const std::string beside =
-      worst.corner_degrees > 0 ? fmt::format(", beside a corner of {:.3g} degrees", worst.corner_degrees) : "";
+  const std::string corner =
+      worst.corner_degrees > 0 ? fmt::format(", next to a corner of {:.3g} degrees", worst.corner_degrees) : "";
   log.warning("{} triangle{} an alpha above 2, the worst {:.3g} at {}{}: curves or interfaces come near each other "
               "there. Let them meet, move them apart, or ask for smaller triangles there",
               quality.bad_triangles, quality.bad_triangles == 1 ? " has" : "s have", worst.alpha, Place(worst.place, 6),
-              beside);
+              corner);
 }
 
 /// Prints the warnings that a run would print about the boundary.
