@@ -98,16 +98,17 @@ std::string estimate(const RunOptions& options, double points, const geometry::B
   return text + fmt::format("output: {} (not written)", options.output.file.path(".h5"));
 }
 
-/// Warns of bad triangles that a sharp corner between curves excuses.
+/// Warns of bad triangles where curves come near each other.
 void warn_of_bad_triangles(const mesh::QualitySummary& quality, Log& log) {
   if (quality.bad_triangles == 0 || quality.worst_triangles.empty())
     return;
   const mesh::BadTriangle& worst = quality.worst_triangles.front();
-  log.warning("{} triangle{} an alpha above 2, the worst {:.3g} at {}, next to the corner {} of {:.3g} degrees: curves "
-              "or interfaces come near each other there. Let them meet, or move them apart, or use more points there "
-              "(size_at, or a region's size)",
+  const std::string corner =
+      worst.corner_degrees > 0 ? fmt::format(", next to a corner of {:.3g} degrees", worst.corner_degrees) : "";
+  log.warning("{} triangle{} an alpha above 2, the worst {:.3g} at {}{}: curves or interfaces come near each other "
+              "there. Let them meet, move them apart, or ask for smaller triangles there",
               quality.bad_triangles, quality.bad_triangles == 1 ? " has" : "s have", worst.alpha, Place(worst.place, 6),
-              Place(worst.corner, 6), worst.corner_degrees);
+              corner);
 }
 
 /// Prints the warnings that a run would print about the boundary.

@@ -32,7 +32,7 @@ struct Partition {
 /// are found in a triangulation of all curves, as those of the shape are: passages, ends at the boundary, and thin tips
 /// (but not at the nodes ArcRequest::tips). Two regions between which `pairs` knows no
 /// interface do not become neighbours. Parts at arcs of circles and at vertices that must stay are not changed. Curves
-/// of the user stay, with other regions beside them; a part with curves all around it is not changed.
+/// of the user stay, with other regions next to them; a part with curves all around it is not changed.
 ///
 /// The curves and the boundary that result share their vertices with the given ones; arcs that are not concerned stay
 /// as they are, in their order. Where an interface no longer meets the boundary, the corner of the boundary goes.

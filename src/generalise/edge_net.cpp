@@ -28,6 +28,8 @@ EdgeNet::EdgeNet(const std::vector<InnerArc>& arcs) {
     for (const Piece& piece : arcs[k].pieces) {
       Edge edge{vertex_at(piece.start), vertex_at(piece.end), piece, arcs[k].left, arcs[k].right};
       edge.arc = k;
+      if (&piece == &arcs[k].pieces.front())
+        edge.lost = arcs[k].lost_area;
       add(edge);
     }
     if (!arcs[k].closed) {

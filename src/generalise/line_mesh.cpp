@@ -36,7 +36,7 @@ LineMesh::LineMesh(const RegionMap& map, std::span<const std::array<int, 2>> pai
     }
 }
 
-/// The triangle on the left of the edge from a to b; -1 if there is none.
+/// The triangle on the left of the edge from a to b; -1 if no triangle is there.
 LocalIndex LineMesh::triangle_beside(LocalIndex a, LocalIndex b) const {
   for (const LocalIndex t : triangles_of_[at(a)])
     for (std::size_t k = 0; k < 3; ++k)

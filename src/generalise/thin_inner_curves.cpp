@@ -260,8 +260,9 @@ bool snap(Partition& partition, const ArcRequest& request) {
   return snapped.joined.vertices + snapped.joined.loose_ends > 0;
 }
 
-/// Gives small faces away and joins curves with interfaces, in turns: a face between two interfaces may go only as a
-/// whole, so the faces come first, whatever curves lead through them. Curves that were joined may leave further ones.
+/// Gives small faces away and joins curves with interfaces, one after the other: a face between two interfaces may go
+/// only as a whole, so the faces come first, whatever curves lead through them. Curves that were joined may leave
+/// further ones.
 Partition without_slivers(Partition given, const ArcRequest& request, std::span<const std::array<int, 2>> pairs,
                           bool& has_absorbed) {
   Partition made = std::move(given);

@@ -25,7 +25,7 @@ struct LabelledPiece {
 struct LeastFace {
   double perimeter = 0; ///< faces with a shorter one are crumbs
   double width = 0;     ///< faces are slivers if twice their area divided by their perimeter is less
-  double gap = 0;       ///< the same for faces of the rest, region 0, if nobody has asked for it
+  double gap = 0;       ///< least width of faces of region 0, the rest
 };
 
 /// @brief Gives each face with a short perimeter or a small width to the region with which it shares the longest

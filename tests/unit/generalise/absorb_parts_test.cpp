@@ -114,7 +114,8 @@ TEST(AbsorbParts, KeptVerticesAndUnknownPairsStay) {
   const UniformSize coarse(0.03);
   const std::vector<Vec2> kept{curves.arcs[0].pieces[0].start};
   EXPECT_FALSE(absorb_parts(curves, unit_square(), {coarse, unit_lattice(), kept}, all_pairs, SmallParts::faces));
-  curves.arcs[0].pieces[0].part = 0; // a curve of the user
+  for (geometry::Piece& piece : curves.arcs[0].pieces)
+    piece.part = 0; // a curve of the user all around it
   EXPECT_FALSE(absorb_parts(curves, unit_square(), {coarse, unit_lattice(), {}}, all_pairs, SmallParts::faces));
 }
 
