@@ -24,8 +24,8 @@ public:
   /// @pre there are as many values as places
   virtual void sizes(std::span<const geometry::Vec2> places, std::span<double> values) const;
   /// Returns true if one call of sizes is much faster than many calls of size, as for a function of an interpreter.
-  /// Then the mesher asks for the sizes of many places together in sweeps, in integrals of the density and in
-  /// measurements. It still calls size for single places, such as those along the boundary.
+  /// Then the mesher calls sizes for blocks of sites in sweeps and when it measures the quality; elsewhere, as in
+  /// integrals of the density, it still calls size for each place.
   virtual bool prefers_blocks() const { return false; }
   /// Returns true if the size is the same everywhere. Then a run can start from a hexagonal lattice.
   virtual bool is_uniform() const { return false; }
