@@ -29,8 +29,7 @@ OldMesh read_old_mesh(const std::string& path, const comm::Communicator& comm) {
   try { // all ranks throw together
     const io::Metadata metadata = io::read_metadata(path, {}, comm);
     mesh::DistributedMesh mesh = io::read_mesh(path, metadata, comm);
-    old.periods = {io::attribute_of<double>(metadata, "period_x"),
-                          io::attribute_of<double>(metadata, "period_y")};
+    old.periods = {io::attribute_of<double>(metadata, "period_x"), io::attribute_of<double>(metadata, "period_y")};
     old.places = std::move(mesh.points);
     old.count = mesh.point_slab.total;
   } catch (const FileError& error) {

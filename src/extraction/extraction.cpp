@@ -27,9 +27,6 @@ struct Offsets {
   std::size_t triangles = 0, facets = 0;
 };
 
-// [points] By one thread, with one call of the size. The sizes of a block fit into the cache.
-constexpr std::size_t points_in_block = 4096;
-
 /// Lists triangles and facets at that of their vertices which has the lowest global id.
 class Extractor {
 public:
@@ -74,22 +71,14 @@ private:
     mesh.boundary.resize(n);
     mesh.size.resize(n);
     mesh.fixed.resize(n);
-    const std::size_t blocks = (n + points_in_block - 1) / points_in_block;
-    thread_loop(static_cast<std::ptrdiff_t>(blocks), 1, [&](std::ptrdiff_t block, int) {
-      const std::size_t first = static_cast<std::size_t>(block) * points_in_block;
-      const std::size_t count = std::min(points_in_block, n - first);
-      for (std::size_t k = first; k < first + count; ++k) {
-        const LocalIndex i = numbering_.order[k];
-        const std::int32_t b = points_.boundary(i);
-        mesh.points[k] = points_.position(i);
-        mesh.boundary[k] = b < 0 ? 0 : view_.polygon.sites[at(b)].tag;
-        mesh.fixed[k] = b >= 0 ? view_.polygon.sites[at(b)].corner : b == mesh::fixed_site && is_kept(mesh.points[k]);
-      }
-      std::array<double, points_in_block> sizes; // those of the state may be older
-      view_.size.sizes({mesh.points.data() + first, count}, {sizes.data(), count});
-      std::transform(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(count),
-                     mesh.size.begin() + static_cast<std::ptrdiff_t>(first),
-                     [](double size) { return static_cast<float>(size); });
+    thread_loop(static_cast<std::ptrdiff_t>(n), 4096, [&](std::ptrdiff_t item, int) {
+      const std::size_t k = static_cast<std::size_t>(item);
+      const LocalIndex i = numbering_.order[k];
+      const std::int32_t b = points_.boundary(i);
+      mesh.points[k] = points_.position(i);
+      mesh.boundary[k] = b < 0 ? 0 : view_.polygon.sites[at(b)].tag;
+      mesh.size[k] = static_cast<float>(view_.size.size(points_.position(i))); // that of the state may be older
+      mesh.fixed[k] = b >= 0 ? view_.polygon.sites[at(b)].corner : b == mesh::fixed_site && is_kept(mesh.points[k]);
     });
     mesh.point_slab = {numbering_.first, numbering_.total};
     mesh.foreign = numbering_.foreign;

@@ -18,7 +18,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace trime::placing {
@@ -58,16 +57,12 @@ public:
     CurveSquare square = grid_.tile(tile).on_curve();
     for (int level = part_levels - 1; level >= 0; --level)
       square = square.quarter(static_cast<unsigned>(part) >> (2 * level) & 3U);
-    const Part whole{square, grid_.box_of(square), false, {}};
-    if (size_.prefers_blocks() && divide_by_levels(whole, visit))
-      return;
     Work work;
-    divide(whole, visit, work);
+    divide({square, grid_.box_of(square), false, {}}, visit, work);
   }
 
 private:
-  static constexpr std::size_t most_by_levels = 1 << 20; // [cells] held by a thread, about 100 bytes each
-  static constexpr int part_levels = 1;                  // number of quadtree levels between a tile and its parts
+  static constexpr int part_levels = 1; // number of quadtree levels between a tile and its parts
   /// Returns the coarsest level of cells. This level is fine enough to sample every bin of the typical density, because
   /// sizes may jump, and no cell of this level lies partly outside of the container.
   int least_level() const {
@@ -147,17 +142,14 @@ private:
     return {};
   }
 
-  enum class Verdict { left_out, divided, kept };
-  struct Judgement {
-    Verdict verdict;
-    bool clear = false; ///< see Part::clear, for the quarters
-    double sites = 0;
-  };
-
-  /// Decides what becomes of a part with the size h at its centre p.
-  /// @param distance distance(free) returns the distance from p to the boundary, as far as it matters
-  template <class Distance>
-  Judgement judge(const Part& part, geometry::Vec2 p, double h, const Distance& distance) const {
+  template <class Visit>
+  void divide(Part part, const Visit& visit, Work& work) const {
+    if (work.sites > most_in_part_)
+      return;
+    const geometry::Box& box = part.box;
+    const std::size_t chords_before = work.chords.size();
+    const geometry::Vec2 p = lattice_.snap(0.5 * (box.min + box.max));
+    const double h = size_.size(p);
     const bool valid = sizing::is_valid_size(h);
     const bool inside = part.clear || guard_.inside(p);
     if (!valid && inside && grid_.container().contains(p))
@@ -166,93 +158,30 @@ private:
     double to_boundary = INFINITY;
     bool clear = part.clear;
     if (!clear) {
-      to_boundary = distance(free);
-      clear = to_boundary >= half_diagonal(part.box) + free;
+      to_boundary = distance(part, p, free, work);
+      clear = to_boundary >= half_diagonal(box) + free;
       if (clear && !inside)
-        return {Verdict::left_out};
+        return work.chords.resize(chords_before);
     }
-    const double sites = valid ? part.box.width() * part.box.height() / (row_height * h * h) : 0;
-    const int level = part.square.level;
-    if (level == PlacingRules::deepest_cell && sites > PlacingRules::most_in_deepest)
+    const double sites = valid ? box.width() * box.height() / (row_height * h * h) : 0;
+    if (++work.cells > PlacingRules::most_density_cells ||
+        (part.square.level == PlacingRules::deepest_cell && sites > PlacingRules::most_in_deepest))
       fail_for_small_size(p, h);
-    if (level < PlacingRules::deepest_cell && (level < least_level() || sites > (clear ? most_inside_ : most_near_)))
-      return {Verdict::divided, clear, sites};
-    const bool is_left_out = (!clear && (to_boundary < free || !inside)) || !grid_.container().contains(p);
-    return {is_left_out ? Verdict::left_out : Verdict::kept, clear, sites};
-  }
-
-  geometry::Vec2 centre(const Part& part) const { return lattice_.snap(0.5 * (part.box.min + part.box.max)); }
-  static Cell cell_of(const Part& part, double h, double sites) {
-    return {part.box, part.square.key, part.square.level, h, std::llround(weight_unit * sites)};
-  }
-
-  template <class Visit>
-  void divide(Part part, const Visit& visit, Work& work) const {
-    if (work.sites > most_in_part_)
-      return;
-    const std::size_t chords_before = work.chords.size();
-    const geometry::Vec2 p = centre(part);
-    const double h = size_.size(p);
-    const Judgement judged = judge(part, p, h, [&](double free) { return distance(part, p, free, work); });
-    if (++work.cells > PlacingRules::most_density_cells)
-      fail_for_small_size(p, h);
-    if (judged.verdict == Verdict::divided)
+    if (part.square.level < PlacingRules::deepest_cell &&
+        (part.square.level < least_level() || sites > (clear ? most_inside_ : most_near_))) {
       for (unsigned k = 0; k < 4; ++k) {
         const CurveSquare quarter = part.square.quarter(k);
-        divide({quarter, grid_.box_of(quarter), judged.clear, part.near}, visit, work);
+        divide({quarter, grid_.box_of(quarter), clear, part.near}, visit, work);
       }
+      return work.chords.resize(chords_before);
+    }
     work.chords.resize(chords_before);
-    if (judged.verdict != Verdict::kept)
+    if (!clear && (to_boundary < free || !inside))
       return;
-    work.sites += judged.sites;
-    visit(cell_of(part, h, judged.sites));
-  }
-
-  /// @brief Does the same for a size that is fast for many places at once: asks for the sizes of all parts of a level
-  /// together. Returns false, and visits nothing, if there are too many cells for that.
-  template <class Visit>
-  bool divide_by_levels(const Part& whole, const Visit& visit) const {
-    std::vector<std::pair<Cell, double>> cells; // with their sites
-    std::vector<Part> level{whole}, next;
-    std::vector<geometry::Vec2> places;
-    std::vector<double> sizes;
-    for (; !level.empty(); std::swap(level, next)) {
-      if (level.size() + cells.size() > most_by_levels)
-        return false;
-      places.resize(level.size());
-      sizes.resize(level.size());
-      std::transform(level.begin(), level.end(), places.begin(), [this](const Part& part) { return centre(part); });
-      size_.sizes(places, sizes);
-      next.clear();
-      for (std::size_t k = 0; k < level.size(); ++k)
-        divide_one(level[k], places[k], sizes[k], next, cells);
-    }
-    const auto order = [](const Cell& cell) { return cell.key << 2 * (PlacingRules::deepest_cell - cell.level); };
-    std::sort(cells.begin(), cells.end(),
-              [&](const auto& a, const auto& b) { return order(a.first) < order(b.first); });
-    double all = 0;
-    for (const auto& [cell, sites] : cells) {
-      if (all > most_in_part_)
-        break;
-      all += sites;
-      visit(cell);
-    }
-    return true;
-  }
-
-  void divide_one(const Part& part, geometry::Vec2 p, double h, std::vector<Part>& next,
-                  std::vector<std::pair<Cell, double>>& cells) const {
-    const Judgement judged = judge(part, p, h, [&](double free) {
-      const double reach = half_diagonal(part.box) + free, far = guard_.distance_below(p, reach);
-      return far >= reach ? far : guard_.distance(p, reach);
-    });
-    if (judged.verdict == Verdict::kept)
-      cells.push_back({cell_of(part, h, judged.sites), judged.sites});
-    if (judged.verdict == Verdict::divided)
-      for (unsigned k = 0; k < 4; ++k) {
-        const CurveSquare quarter = part.square.quarter(k);
-        next.push_back({quarter, grid_.box_of(quarter), judged.clear, {}});
-      }
+    if (!grid_.container().contains(p))
+      return;
+    work.sites += sites;
+    visit(Cell{box, part.square.key, part.square.level, h, std::llround(weight_unit * sites)});
   }
 
   [[noreturn]] static void fail_for_small_size(geometry::Vec2 p, double h) {

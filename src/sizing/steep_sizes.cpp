@@ -353,31 +353,22 @@ SteepSizes::SteepSizes(const comm::Communicator& comm, const SizeField& relative
   last_row_ = std::min(rows_, static_cast<int>(std::int64_t{rows_} * (comm.rank() + 1) / comm.size()) + 1);
   samples_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(last_row_ - first_row_));
   comm::run_agreed(comm, [this] {
-    thread_loop(last_row_ - first_row_, 1, [this](std::ptrdiff_t row, int) { sample_row(static_cast<int>(row)); });
+    thread_loop(last_row_ - first_row_, 1, [this](std::ptrdiff_t row, int) {
+      for (int i = 0; i < columns_; ++i)
+        samples_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(i)] =
+            sample(i, first_row_ + static_cast<int>(row));
+    });
   });
 }
 
-/// Evaluates the field at the places of a row, all together.
-void SteepSizes::sample_row(int row) {
-  const std::size_t columns = static_cast<std::size_t>(columns_), first = static_cast<std::size_t>(row) * columns;
-  std::vector<Vec2> places(columns);
-  std::vector<double> sizes(columns);
-  for (std::size_t i = 0; i < columns; ++i) {
-    const Vec2 p = random_place(static_cast<int>(i), first_row_ + row);
-    samples_[first + i].place = p;
-    places[i] = boundary_.periods.wrap(p);
-  }
-  relative_.sizes(places, sizes);
-  for (std::size_t i = 0; i < columns; ++i)
-    samples_[first + i].relative = sizes[i];
-}
-
-/// Returns a random place in a cell.
-Vec2 SteepSizes::random_place(int i, int j) const {
+/// Evaluates the field at a random place in a cell.
+SteepSizes::Sample SteepSizes::sample(int i, int j) const {
   const std::uint64_t cell =
       static_cast<std::uint64_t>(j) * static_cast<std::uint64_t>(columns_) + static_cast<std::uint64_t>(i);
   const auto random = [&](std::uint64_t slot) { return random_unit(0, RandomPurpose::size_sample, cell, slot); };
-  return {box_.min.x + box_.width() / columns_ * (i + random(0)), box_.min.y + box_.height() / rows_ * (j + random(1))};
+  const Vec2 p{box_.min.x + box_.width() / columns_ * (i + random(0)),
+               box_.min.y + box_.height() / rows_ * (j + random(1))};
+  return {p, relative_.size(boundary_.periods.wrap(p))};
 }
 
 /// The lower sample of a steep pair of neighbours with its steepest partner. Nothing if another neighbour lowers the

@@ -12,6 +12,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -158,6 +161,17 @@ std::vector<LocalIndex> along_curve(const StageView& view, mesh::SiteRange range
   return sites;
 }
 
+/// Returns the shares of the owned sites. Collective.
+std::vector<double> shares_of(const StageView& view) {
+  std::vector<double> shares(at(view.state.points().owned()));
+  comm::run_agreed(view.state.comm(), [&] {
+    thread_loop(std::ssize(shares), 256, [&](std::ptrdiff_t i, int) {
+      shares[static_cast<std::size_t>(i)] = share_of(view, static_cast<LocalIndex>(i));
+    });
+  });
+  return shares;
+}
+
 /// Returns the factor on the shares with which their sum is the wanted number of sites. Collective.
 double correction_of(const StageView& view, std::span<const double> shares, double wanted) {
   const mesh::BinnedPoints& points = view.state.points();
@@ -180,12 +194,7 @@ double correction_of(const StageView& view, std::span<const double> shares, doub
 DensityChanges changes_for_density(const StageView& view, const Stage& next, double wanted) {
   const mesh::BinnedPoints& points = view.state.points();
   const comm::Communicator& comm = view.state.comm();
-  std::vector<double> shares(at(points.owned()));
-  comm::run_agreed(comm, [&] {
-    thread_loop(points.owned(), 256, [&](std::ptrdiff_t i, int) {
-      shares[static_cast<std::size_t>(i)] = share_of(view, static_cast<LocalIndex>(i));
-    });
-  });
+  const std::vector<double> shares = shares_of(view);
   const double correction = correction_of(view, shares, wanted);
   const LocalIndex first_tile = points.first_tile(), tiles = points.last_tile() - first_tile;
   std::vector<std::uint8_t> gone(at(points.owned()));
@@ -199,22 +208,23 @@ DensityChanges changes_for_density(const StageView& view, const Stage& next, dou
     });
   });
   DensityChanges made;
-  std::int64_t starved = 0;
+  std::array<std::int64_t, 4> counts{0, 0, 0, points.owned()}; // removed, inserted, starved, all
   for (LocalIndex i = 0; i < points.owned(); ++i) {
-    starved += correction * shares[at(i)] > largest_share;
-    made.removed += gone[at(i)];
+    counts[0] += gone[at(i)];
+    counts[2] += correction * shares[at(i)] > largest_share;
     if (points.boundary(i) == mesh::free_site && gone[at(i)] == 0)
       made.sites.push_back({points.position(i)});
   }
   for (const std::vector<Vec2>& places : come)
     for (const Vec2 place : places) {
       made.sites.push_back({place});
-      ++made.inserted;
+      ++counts[1];
     }
-  made.removed = comm.sum(made.removed);
-  made.inserted = comm.sum(made.inserted);
-  const auto sites = static_cast<double>(comm.sum(std::int64_t{points.owned()}));
-  made.is_finished = static_cast<double>(comm.sum(starved)) <= few_starved * sites &&
+  comm.sum(counts);
+  made.removed = counts[0];
+  made.inserted = counts[1];
+  const auto sites = static_cast<double>(counts[3]);
+  made.is_finished = static_cast<double>(counts[2]) <= few_starved * sites &&
                      static_cast<double>(made.removed + made.inserted) <= StartRules::small_change * sites;
   return made;
 }

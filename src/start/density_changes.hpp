@@ -10,16 +10,16 @@ namespace trime::start {
 
 /// The inner sites after the changes.
 struct DensityChanges {
-  mesh::SiteList sites;      ///< those of this rank; they may belong to other ranks
+  mesh::SiteList sites;      ///< a share of them on each rank; they may belong to other ranks
   std::int64_t removed = 0;  ///< number of sites that are left out, over all ranks
   std::int64_t inserted = 0; ///< number of new sites, over all ranks
   bool is_finished = true;   ///< false if the density is still far from the wanted one at some places
 };
 
 /// @brief Returns the owned inner sites without some that are too many, and with new ones in large triangles. One call
-/// changes the density by a factor of four at most. Each tile is walked along the Hilbert curve: the share of a site is
-/// the area of its triangles over that of equilateral triangles with the edge h; a site is taken out where the shares
-/// fall behind the number of sites by one, and a site is put in where they are ahead by one. Collective.
+/// changes the density by a factor of four at most. Each tile is walked along the Hilbert curve. The share of a site is
+/// the area of its triangles over that of equilateral triangles with the edge h. A site is taken out where the sum of
+/// the shares falls behind the number of sites, and a site is put in where the sum is ahead. Collective.
 /// @param next stage with size and boundary of the new sites; may be the stage of the view
 /// @param wanted number of inner sites over all ranks that corresponds to the size
 /// @throws GeometryError on all ranks together if a size is not positive and finite

@@ -18,8 +18,8 @@ struct DensityChanges;
 /// Numbers of points over all ranks.
 struct OldPointsSummary {
   std::int64_t all = 0;     ///< points of the old mesh, as far as they lie in the container
-  std::int64_t kept = 0;    ///< those in the new shape, away from its boundary
-  std::int64_t removed = 0; ///< those of them that were taken out, because the new size is larger there
+  std::int64_t kept = 0;    ///< points in the new shape, away from its boundary
+  std::int64_t removed = 0; ///< points that were taken out, because the new size is larger there
   std::int64_t inserted = 0;
 
   void add(const DensityChanges& changes);

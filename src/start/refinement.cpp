@@ -19,9 +19,6 @@ namespace {
 // decides, so that none need be searched.
 constexpr double farthest_from_boundary = 4;
 
-// [sites] By one thread, with one call of the size.
-constexpr std::size_t sites_in_block = 1024;
-
 using decomposition::selection_key;
 using decomposition::selection_threshold;
 using geometry::Vec2;
@@ -77,31 +74,6 @@ mesh::SiteList place_by_tile(const mesh::BinnedPoints& points, const Make& make)
     for_each_site(t, [&](Vec2 position) { *next++ = {position}; });
   });
   return all;
-}
-
-/// Calls use(k, h) with the size at site k for each site for which wanted(k) is true. Asks for the sizes of many sites
-/// together. @throws GeometryError if a size is not positive and finite
-template <class Wanted, class Use>
-void with_sizes(const sizing::SizeField& size, std::span<const mesh::Site> sites, const Wanted& wanted,
-                const Use& use) {
-  const std::size_t blocks = (sites.size() + sites_in_block - 1) / sites_in_block;
-  thread_loop(static_cast<std::ptrdiff_t>(blocks), 1, [&](std::ptrdiff_t block, int) {
-    std::vector<std::size_t> chosen;
-    std::vector<Vec2> places;
-    const std::size_t first = static_cast<std::size_t>(block) * sites_in_block;
-    for (std::size_t k = first; k < std::min(first + sites_in_block, sites.size()); ++k)
-      if (wanted(k)) {
-        chosen.push_back(k);
-        places.push_back(sites[k].position);
-      }
-    std::vector<double> sizes(places.size());
-    size.sizes(places, sizes);
-    for (std::size_t k = 0; k < chosen.size(); ++k) {
-      if (!sizing::is_valid_size(sizes[k]))
-        sizing::fail_for_size(places[k], sizes[k]);
-      use(chosen[k], sizes[k]);
-    }
-  });
 }
 
 /// Keeps the items for which keep[k] is set.
@@ -192,12 +164,10 @@ void insert_in_triangles(const StageView& view, const Stage& next, std::int64_t 
 void clear_strip(const Stage& next, mesh::SiteList& sites) {
   std::vector<std::uint8_t> keep(sites.size());
   comm::run_agreed(next.state->comm(), [&] {
-    with_sizes(
-        *next.size, sites, [&](std::size_t k) { return next.guard->inside(sites[k].position); },
-        [&](std::size_t k, double h) {
-          const double free = placing::PlacingRules::density_strip * h;
-          keep[k] = next.guard->distance(sites[k].position, free) >= free;
-        });
+    thread_loop(static_cast<std::ptrdiff_t>(sites.size()), 256, [&](std::ptrdiff_t k, int) {
+      const std::size_t at = static_cast<std::size_t>(k);
+      keep[at] = is_clear(next, sites[at].position);
+    });
   });
   keep_marked(sites, keep);
 }
@@ -208,13 +178,12 @@ std::int64_t trim(const comm::Communicator& comm, const Stage& next, std::int64_
     return 0;
   std::vector<std::uint64_t> keys(sites.size());
   comm::run_agreed(comm, [&] {
-    with_sizes(
-        *next.size, sites, [](std::size_t) { return true; },
-        [&](std::size_t k, double h) {
-          const Vec2 p = sites[k].position;
-          keys[k] =
-              selection_key(next.guard->distance(p, farthest_from_boundary * h) / (farthest_from_boundary * h), p);
-        });
+    thread_loop(static_cast<std::ptrdiff_t>(sites.size()), 256, [&](std::ptrdiff_t k, int) {
+      const std::size_t at = static_cast<std::size_t>(k);
+      const Vec2 p = sites[at].position;
+      const double h = sizing::checked_size(*next.size, p);
+      keys[at] = selection_key(next.guard->distance(p, farthest_from_boundary * h) / (farthest_from_boundary * h), p);
+    });
   });
   const std::uint64_t threshold = selection_threshold(comm, keys, excess);
   std::vector<std::uint8_t> keep(sites.size());

@@ -21,7 +21,7 @@ struct StartRules {
   /// [1] One insertion multiplies the number of points by this factor, as in TriMe++.
   static constexpr double growth = 1.6;
   /// [1] A mesh from an old mesh begins with the last update rule if at most this share of its sites was taken out or
-  /// put in; otherwise with the first one, as a new mesh does.
+  /// put in; otherwise with the first one, as a new mesh does. Not measured.
   static constexpr double small_change = 0.25;
   /// [1] The scheme coarse to fine samples the density in cells that are wider by this factor. The mesh was as good as
   /// with 1.

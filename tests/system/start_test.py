@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests meshes that start from the points of an old mesh (`start` in [meshing]): a disc that moves through a channel,
-other sizes and numbers of points, the same bits on any ranks, restarts, and old meshes that cannot be used."""
+other sizes, the same bits on any ranks, restarts, and old meshes that cannot be used."""
 import itertools
 import unittest
 

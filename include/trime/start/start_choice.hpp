@@ -17,9 +17,9 @@ enum class Start { automatic, lattice, hilbert, coarse_to_fine };
 /// The points of an old mesh, from which a new mesh starts. The new mesh depends on their places, and not on their
 /// order or on the rank that holds them.
 struct OldPoints {
-  std::span<const geometry::Vec2> points; ///< those of this rank; each point on one rank, any share
-  geometry::Vec2 periods{};           ///< of the container of the old mesh; 0 along axes that are not periodic
-  std::string name = "the old mesh";  ///< in messages: the file, if there is one
+  std::span<const geometry::Vec2> points; ///< any share of the points on each rank, each point once
+  geometry::Vec2 periods{};               ///< periods of the old mesh; 0 along axes that are not periodic
+  std::string name = "the old mesh";      ///< in messages: the file, if there is one
 };
 
 } // namespace trime::start
