@@ -63,7 +63,7 @@ def grains(rng, count=1000):
 
 
 def layers(rng, count=6):
-    """Wavy layers, some of which become thinner and end."""
+    """Wavy layers. Every second one becomes thinner and ends."""
     steps = [k / 80 for k in range(81)]
     borders = [[0.0] * 81]
     for k in range(1, count):

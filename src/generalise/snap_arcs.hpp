@@ -39,7 +39,7 @@ struct SnappedArcs {
   JoinedLines joined;
 };
 
-/// What arcs are joined by.
+/// Says by which size and rules arcs are joined.
 struct ArcRules {
   const sizing::SizeField& size; ///< h
   const geometry::Lattice& lattice;
@@ -49,7 +49,7 @@ struct ArcRules {
 
 /// @brief Joins each curve with the interfaces between regions, and with the other curves, that it follows. Where a
 /// vertex of one of both lies nearer to an edge of the other than GeneraliseRules::snap_distance h, that edge leads
-/// through the vertex. So the end of a curve just before another one comes to lie on it. Edges of a curve and of an
+/// through the vertex. So a curve that ends just before another one ends on it. Edges of a curve and of an
 /// interface that have the same ends then become one edge, with the name of the curve and the regions of the interface.
 /// Edges of two curves become one with the name of the first curve, unless one of them is split. Curves that meet at
 /// more than about 20 degrees do not follow each other. An end of a curve that reaches beyond another curve or an

@@ -12,6 +12,7 @@ from trime_mpi import ConfigError, GeometryError, parallel
 
 comm = MPI.COMM_WORLD
 PLATE = parallel.rectangle("plate", (0, 0), (2, 1)) - parallel.circle("hole", (1, 0.5), 0.2)
+MOVED = parallel.rectangle("plate", (0, 0), (2, 1)) - parallel.circle("hole", (1.03, 0.5), 0.2)
 
 
 def holes(p):
@@ -140,6 +141,10 @@ def main(directory):
     found["arrays"] = {name: agreed(holds) for name, holds in check_arrays(plain).items()}
     found["arrays"] |= {name: agreed(holds) for name, holds in check_cells(plain).items()}
     found["arrays"]["lifetime"] = agreed(check_lifetime())
+    plain.write(directory / f"plain{comm.size}.h5")
+    moved = [parallel.mesh(comm, MOVED, points=2000, start=old) for old in (plain, directory / f"plain{comm.size}.h5")]
+    found["start"] = [mesh.hash for mesh in moved]
+    found["start_alpha"] = moved[0].quality["alpha_max"]
     found["formula"] = parallel.mesh(comm, PLATE, points=2000, size="1 + 3*x*x + y").hash
     graded = parallel.mesh(comm, PLATE, points=2000, size=holes)
     found["callable"] = graded.hash

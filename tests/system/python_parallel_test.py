@@ -62,6 +62,7 @@ class Parallel(WorkspaceCase):
         expected = {"uniform": self.hash_of_program(""),
                     "automatic": self.hash_of_program("[sizing]\ntype = automatic\n"),
                     "formula": self.hash_of_program("[sizing]\ntype = expression\nexpression = 1 + 3*x*x + y\n")}
+        started = set()
         for ranks in (1, 2, 3):
             found = json.loads(python(ROOT / "tests" / "system" / "python_parallel_ranks.py", self.directory,
                                       ranks=ranks).splitlines()[-1])
@@ -70,9 +71,12 @@ class Parallel(WorkspaceCase):
             self.assertEqual([found["callable"], found["read"]], 2 * [expected["formula"]])
             self.assertEqual([name for name, holds in found["arrays"].items() if not holds], [])
             self.assertTrue(found["checks"] and found["meshio"])
+            started.update(found["start"])
+            self.assertLess(found["start_alpha"], 1.3)
             self.check_errors(found)
             if ranks == 2:
                 self.check_poisson(*found["poisson"])
+        self.assertEqual(len(started), 1, started)
 
     def check_poisson(self, coarse, fine):
         order = math.log2(coarse["error"] / fine["error"])  # from 1000 to 4000 points h is halved

@@ -112,8 +112,8 @@ def mesh(comm, shape, *, size=None, **options):
     given, or absolute_sizes=True. Other options are those of trime::MeshOptions: gradation, min_size, max_size,
     regions, curves, fixed_points (an array), container ((x, y), (x, y)), periodic_x, periodic_y, method, max_sweeps ...
 
-    start is an old mesh, of this function or of read(), or the path of a mesh file: its points in the new shape are the
-    start of the new mesh, which takes fewer sweeps than a mesh from nothing if shape and size differ little.
+    start is an old mesh, of this function or of read(), or the path of a mesh file. Its points in the new shape are the
+    first points of the new mesh. If shape and size differ little, this takes fewer sweeps than new points.
 
     Errors are the exceptions of trime_mpi, on all ranks. If the function of the size fails on a rank, its own exception
     is the cause (`__cause__`) of the one on that rank. If a check of the mesh fails, IncompleteError has it as `mesh`.
