@@ -115,9 +115,11 @@ private:
     return one.is_curve() && other.is_curve() ? may_be_one(one, other) && net_.may_join(e, f) : net_.may_join(e, f);
   }
 
-  /// Do edges lead from the vertex to both ends of the edge?
+  /// Do edges lead from the vertex to both ends of the edge? Of smaller triangles the nodes become one.
   bool is_sliver(LocalIndex v, LocalIndex e) const {
-    return net_.between(v, net_.edge(e).a) >= 0 && net_.between(v, net_.edge(e).b) >= 0;
+    const Segment edge = segment(e);
+    return length(edge.b - edge.a) > GeneraliseRules::node_distance * sizing::checked_size(size_, net_.place(v)) &&
+           net_.between(v, net_.edge(e).a) >= 0 && net_.between(v, net_.edge(e).b) >= 0;
   }
 
   /// Is the way along curves from the vertex to the edge long, compared with their distance?

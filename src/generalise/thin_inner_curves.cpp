@@ -274,7 +274,7 @@ Partition without_slivers(Partition given, const ArcRequest& request, std::span<
       has_absorbed = true;
     }
     const bool has_snapped = snap(made, request);
-    std::optional<Partition> zipped = zip_lines(made, request, pairs);
+    std::optional<Partition> zipped = pairs.empty() ? std::nullopt : zip_lines(made, request, pairs);
     if (zipped)
       made = std::move(*zipped);
     if (!large && !has_snapped && !zipped)

@@ -72,8 +72,11 @@ TEST(InnerCurves, FlatFacesKeepTheirTwoSides) {
   const geometry::Domain domain = square_with({{{0.25, 0.5}, {0.5, 0.503}, {0.75, 0.5}},
                                                {{0.25, 0.5}, {0.5, 0.497}, {0.75, 0.5}},
                                                {{0.375, 0}, {0.4375, 0.004}, {0.5, 0}}});
+  InnerCurves given = domain.curves();
+  given.kinds.assign(3, {});
+  given.kinds[1].split = true; // so it does not become one line with the first curve
   const InnerCurves thinned =
-      generalise::thin_inner_curves(domain.curves(), domain.boundary(), UniformSize(0.1), unit_lattice(), {});
+      generalise::thin_inner_curves(given, domain.boundary(), UniformSize(0.1), unit_lattice(), {});
   ASSERT_EQ(thinned.arcs.size(), 3U);
   for (const InnerArc& arc : thinned.arcs)
     EXPECT_EQ(arc.pieces.size(), 2U); // two straight arcs would be one edge, or lie on the boundary
@@ -253,9 +256,13 @@ TEST(ThinInnerCurves, KeepsNodesAndSides) {
   std::vector<Vec2> line, island;
   for (int k = 0; k <= 1000; ++k)
     line.push_back(unit_lattice().snap({0.125 + 0.00075 * k, 0.5 + 0.002 * (k % 2)}));
-  const geometry::Domain domain = square_with({line, {{0.5, 0.50075}, {0.5005, 0.50075}}});
+  const std::vector<Vec2> ends{unit_lattice().snap({0.5, 0.50075}), unit_lattice().snap({0.5005, 0.50075})};
+  const geometry::Domain domain = square_with({line, ends});
+  InnerCurves given = domain.curves();
+  given.kinds.assign(2, {});
+  given.kinds[1].split = true; // so it does not become one line with the other curve
   const InnerCurves thinned =
-      generalise::thin_inner_curves(domain.curves(), domain.boundary(), UniformSize(0.02), unit_lattice(), {});
+      generalise::thin_inner_curves(given, domain.boundary(), UniformSize(0.02), unit_lattice(), ends);
   ASSERT_EQ(thinned.arcs.size(), domain.curves().arcs.size());
   std::size_t before = 0, after = 0;
   for (std::size_t k = 0; k < thinned.arcs.size(); ++k) {
