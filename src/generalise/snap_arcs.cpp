@@ -115,7 +115,7 @@ private:
     return one.is_curve() && other.is_curve() ? may_be_one(one, other) && net_.may_join(e, f) : net_.may_join(e, f);
   }
 
-  /// Do edges lead from the vertex to both ends of the edge? Of smaller triangles the nodes become one.
+  /// Do edges lead from the vertex to both ends of the edge? The nodes of smaller triangles become one instead.
   bool is_sliver(LocalIndex v, LocalIndex e) const {
     const Segment edge = segment(e);
     return length(edge.b - edge.a) > GeneraliseRules::node_distance * sizing::checked_size(size_, net_.place(v)) &&
