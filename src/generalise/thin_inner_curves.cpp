@@ -149,13 +149,17 @@ private:
            tree_.is_empty({vertices_[previous_[k]], vertices_[k], vertices_[next_[k]]});
   }
 
-  /// Would an arc that must bend keep only a vertex on the line between its ends? Such vertices were added to edges.
+  /// Would an arc that must bend, and bends, keep only a vertex on the line between its ends?
   bool becomes_straight(std::size_t k) const {
     if (arc_.closed || least_left_ != 3 || left_ != 4)
       return false;
     const std::size_t other = next_[0] == k ? next_[k] : next_[0];
+    return is_on_line(other) && !is_on_line(k);
+  }
+  /// Does a vertex lie on the line between the ends of the arc?
+  bool is_on_line(std::size_t k) const {
     const Vec2 a = place(0), along = place(vertices_.size() - 1) - a;
-    return std::fabs(cross(along, place(other) - a)) < 1e-6 * squared_length(along);
+    return std::fabs(cross(along, place(k) - a)) < 1e-6 * squared_length(along);
   }
 
   InnerArc result() const {

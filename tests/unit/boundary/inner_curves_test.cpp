@@ -82,6 +82,15 @@ TEST(InnerCurves, FlatFacesKeepTheirTwoSides) {
     EXPECT_EQ(arc.pieces.size(), 2U); // two straight arcs would be one edge, or lie on the boundary
 }
 
+TEST(InnerCurves, AStraightLineAcrossTheShapeLosesItsVertices) {
+  const geometry::Domain domain = square_with({{{0, 0.3}, {0.0001, 0.3}, {0.4, 0.3}, {0.7, 0.3}, {1, 0.3}}});
+  const InnerCurves thinned =
+      generalise::thin_inner_curves(domain.curves(), domain.boundary(), UniformSize(0.1), unit_lattice(), {});
+  ASSERT_EQ(thinned.arcs.size(), 1U);
+  EXPECT_EQ(thinned.arcs[0].pieces.size(), 2U); // between two places of the boundary it keeps one vertex
+  EXPECT_GT(thinned.arcs[0].pieces[0].length(), 0.1);
+}
+
 TEST(InnerCurves, CloseNodesStayWhereAPointIsFixed) {
   const geometry::Domain domain = close_crossings();
   std::vector<Vec2> fixed;
