@@ -109,7 +109,7 @@ stage functions /usr/bin/python3 scripts/check_functions.py || true
 stage doxygen scripts/doxygen.sh || true
 stage python flake8 || true
 if build ci; then
-  tests ci "$((3 * jobs))" # for half of their time most of them wait for mpirun
+  tests ci "$((4 * jobs))" # for half of their time most of them wait for mpirun
 fi
 if [ "$quick" = no ]; then
   # The one file of which sanitizers leave out a part: without them, by the second compiler.
