@@ -21,6 +21,7 @@ trime_test_packages=(
   hdf5-tools python3-vtk9 python3-meshio          # h5diff, and two foreign readers of the mesh file
   python3-gmsh python3-dolfinx freefem++ dolfin-bin # readers of the formats of other programs
   calculix-ccx                                    # a solver that reads .inp
+  python3-netcdf4                                 # reads UGRID files
   python3-qgis qgis-providers                     # reads .2dm; 99 packages, 424 MB: without it one test is skipped
   gdal-bin python3-gdal                           # reads and writes maps: ogr2ogr, ogrinfo; Python too
   gmt-gshhg-full                                  # coasts of full resolution; 42 MB: without it one test is skipped
