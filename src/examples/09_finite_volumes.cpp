@@ -43,7 +43,7 @@ System assemble(const trime::LocalCells& cells) {
   return system;
 }
 
-/// What flows out of each owned cell that is not held. Brings the ghosts of u up to date. Collective.
+/// Computes the flow out of each owned cell whose value is not given. Brings the ghosts of u up to date. Collective.
 Field outflow(const System& system, Field& u) {
   const trime::dual::LocalCells& cells = system.cells.arrays();
   system.cells.mesh().update_ghosts(u);

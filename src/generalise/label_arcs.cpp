@@ -46,7 +46,7 @@ private:
   bool is_free(HalfEdge e) const { return is_used_[at(e)] == 0 && is_inner(e); }
   void use(HalfEdge e) { is_used_[at(e)] = is_used_[at(mesh_.twin(e))] = 1; }
 
-  /// What does not change along an arc: the regions on both sides, the lower one first, and the curve.
+  /// Returns the regions on both sides, the lower one first, and the curve. An arc ends where they change.
   std::array<int, 3> sides_of(HalfEdge e) const {
     const auto [low, high] = std::minmax({map_.label(Triangulation::triangle(e)), map_.label_beside(e)});
     return {low, high, map_.curve_on(e)};
