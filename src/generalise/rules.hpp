@@ -70,8 +70,8 @@ struct GeneraliseRules {
   static constexpr double thin_tip = 0.35;
   /// [h] Such tips are cut where they have this width. Not measured.
   static constexpr double cut_tip = 0.25;
-  /// [h] A curve and an interface become one line where they lie nearer to each other, because the user means one line
-  /// that was digitised twice. Not measured.
+  /// [h] A curve and an interface, or two curves, become one line where they lie nearer to each other, because the user
+  /// means one line that was digitised twice. Not measured.
   static constexpr double snap_distance = 0.2;
   /// [1] Largest sine of the angle between two lines that follow each other: 35 degrees. Not measured.
   static constexpr double parallel = 0.57;

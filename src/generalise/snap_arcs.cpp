@@ -269,9 +269,10 @@ bool is_loose_end(const InnerArc& arc, const std::map<std::pair<double, double>,
 
 /// Leaves out short ends of curves beyond other curves and interfaces; the last arc of a curve stays.
 void drop_loose_ends(SnappedArcs& result, const Boundary& boundary, const ArcRules& rules) {
-  std::map<std::pair<double, double>, int> arcs_at, arcs_of;
+  std::map<std::pair<double, double>, int> arcs_at;
+  std::map<int, int> arcs_of; // by curve
   for (const InnerArc& arc : result.arcs) {
-    ++arcs_of[{arc.pieces.front().part, 0}];
+    ++arcs_of[arc.pieces.front().part];
     if (arc.closed)
       continue;
     const Vec2 a = arc.pieces.front().start, b = arc.pieces.back().end;
@@ -287,7 +288,7 @@ void drop_loose_ends(SnappedArcs& result, const Boundary& boundary, const ArcRul
       return false;
     const Vec2 a = arc.pieces.front().start, b = arc.pieces.back().end, end = arcs_at.at({a.x, a.y}) == 1 ? a : b;
     const double longest = GeneraliseRules::node_distance * sizing::checked_size(rules.size, end), its = length_of(arc);
-    int& left = arcs_of.at({arc.pieces.front().part, 0});
+    int& left = arcs_of.at(arc.pieces.front().part);
     if (its >= longest || left == 1 || std::ranges::binary_search(rules.corners, end, geometry::lexicographically_less))
       return false;
     --left;

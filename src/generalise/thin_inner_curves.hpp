@@ -19,9 +19,9 @@ namespace trime::generalise {
 /// GeneraliseRules::vertex_area h^2. A vertex stays if it is farther than GeneraliseRules::vertex_move h from the edge
 /// that would replace it.
 ///
-/// Curves are joined with the interfaces that they follow before, see snapped_arcs(). Then interfaces between regions
-/// are smoothed, see smooth_arcs(), and narrow wedges are cut afterwards, see
-/// cut_wedges(). InnerArc::lost_area says how much area an interface takes from its left side.
+/// Before, curves are joined with the interfaces and curves that they follow, see snapped_arcs(), and with regions also
+/// by zip_lines(). Then interfaces between regions are smoothed, see smooth_arcs(), and narrow wedges are cut
+/// afterwards, see cut_wedges(). InnerArc::lost_area says how much area an interface takes from its left side.
 ///
 /// Nodes, corners that the user asked for, and all other curves stay on their side: a vertex stays if its triangle
 /// contains a vertex of another curve or of the boundary (see VertexTree). Only straight pieces are changed. Cost: O(n
