@@ -2,6 +2,7 @@
 // Tests that curves become one line with the interfaces and curves that they follow.
 #include "generalise/snap_arcs.hpp"
 
+#include "arc_paths.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/geometry/lattice.hpp"
 #include "trime/sizing/size_field.hpp"
@@ -22,29 +23,13 @@ using geometry::Vec2;
 class SnapArcs : public ::testing::Test {
 protected:
   Vec2 at(double x, double y) const { return lattice_.snap({x, y}); }
-  static std::vector<geometry::Piece> pieces(const std::vector<Vec2>& path, int part) {
-    std::vector<geometry::Piece> made;
-    for (std::size_t k = 1; k < path.size(); ++k) {
-      geometry::Piece& piece = made.emplace_back();
-      piece.start = path[k - 1];
-      piece.end = path[k];
-      piece.part = part;
-    }
-    return made;
-  }
-  static InnerArc arc(const std::vector<Vec2>& path, int part, int left, int right) {
-    InnerArc made;
-    made.pieces = pieces(path, part);
-    made.left = left;
-    made.right = right;
-    return made;
-  }
   InnerArc interface() const {
-    return arc({at(0, 0.5), at(0.21, 0.5005), at(0.42, 0.4995), at(0.6, 0.5), at(0.83, 0.5003), at(1, 0.5)}, -1, 0, 1);
+    return arc_of({at(0, 0.5), at(0.21, 0.5005), at(0.42, 0.4995), at(0.6, 0.5), at(0.83, 0.5003), at(1, 0.5)}, -1, 0,
+                  1);
   }
   SnappedArcs snapped(const std::vector<InnerArc>& arcs, std::span<const geometry::CurveKind> kinds = {}) const {
     geometry::Boundary square;
-    square.loops.emplace_back().pieces = pieces({{0, 0}, {1, 0}, {1, 0.5}, {1, 1}, {0, 1}, at(0, 0.5), {0, 0}}, 0);
+    square.loops.emplace_back().pieces = pieces_of({{0, 0}, {1, 0}, {1, 0.5}, {1, 1}, {0, 1}, at(0, 0.5), {0, 0}}, 0);
     const sizing::UniformSize size(0.024);
     return snapped_arcs(arcs, square, {size, lattice_, {}, kinds});
   }
@@ -55,7 +40,7 @@ private:
 
 TEST_F(SnapArcs, LinesThatFollowEachOtherBecomeOne) {
   const std::vector<Vec2> fault{at(0.15, 0.502), at(0.3, 0.5018), at(0.5, 0.5022), at(0.7, 0.5016), at(0.9, 0.502)};
-  const SnappedArcs result = snapped({arc(fault, 0, 0, 0), interface()});
+  const SnappedArcs result = snapped({arc_of(fault, 0, 0, 0), interface()});
   EXPECT_EQ(result.joined.vertices, 9); // 5 of the fault, 4 of the interface
   EXPECT_LT(result.joined.farthest, 0.2 * 0.024);
   ASSERT_EQ(result.arcs.size(), 3U);
@@ -69,17 +54,17 @@ TEST_F(SnapArcs, LinesThatFollowEachOtherBecomeOne) {
 
 TEST_F(SnapArcs, LinesFartherApartStay) {
   const std::vector<Vec2> fault{at(0.15, 0.508), at(0.5, 0.508), at(0.9, 0.508)};
-  const SnappedArcs result = snapped({arc(fault, 0, 0, 0), interface()});
+  const SnappedArcs result = snapped({arc_of(fault, 0, 0, 0), interface()});
   EXPECT_EQ(result.joined.vertices, 0);
   EXPECT_EQ(result.arcs.size(), 2U);
 }
 
 TEST_F(SnapArcs, ACurveLeavesItsInterfaceAtAVertex) {
   const Vec2 crossing = at(0.3, 0.5002), last = at(0.7, 0.499);
-  const SnappedArcs result =
-      snapped({arc({at(0.15, 0.502), crossing}, 0, 0, 0), arc({crossing, at(0.5, 0.498), last, at(0.8, 0.47)}, 0, 1, 1),
-               arc({at(0, 0.5), at(0.21, 0.5005), crossing}, -1, 0, 1),
-               arc({crossing, at(0.42, 0.4995), at(0.6, 0.5), at(0.83, 0.5003), at(1, 0.5)}, -1, 0, 1)});
+  const SnappedArcs result = snapped(
+      {arc_of({at(0.15, 0.502), crossing}, 0, 0, 0), arc_of({crossing, at(0.5, 0.498), last, at(0.8, 0.47)}, 0, 1, 1),
+       arc_of({at(0, 0.5), at(0.21, 0.5005), crossing}, -1, 0, 1),
+       arc_of({crossing, at(0.42, 0.4995), at(0.6, 0.5), at(0.83, 0.5003), at(1, 0.5)}, -1, 0, 1)});
   ASSERT_EQ(result.arcs.size(), 4U);
   EXPECT_EQ(result.arcs[0].pieces.back().end, last); // through the crossing, which is no node any more
   EXPECT_EQ(std::pair(result.arcs[0].left, result.arcs[0].right), std::pair(0, 1));
@@ -90,7 +75,7 @@ class SnapCurves : public SnapArcs {
 protected:
   /// A river along the middle; the tributary comes from above.
   std::vector<InnerArc> confluence(Vec2 end) const {
-    return {arc({at(0.1, 0.3), at(0.9, 0.3)}, 0, 0, 0), arc({at(0.5, 0.7), at(0.5, 0.35), end}, 1, 0, 0)};
+    return {arc_of({at(0.1, 0.3), at(0.9, 0.3)}, 0, 0, 0), arc_of({at(0.5, 0.7), at(0.5, 0.35), end}, 1, 0, 0)};
   }
 };
 
@@ -107,9 +92,9 @@ TEST_F(SnapCurves, AnEndJustBeforeAnotherCurveComesToLieOnIt) {
 
 TEST_F(SnapCurves, AShortEndBeyondAnotherCurveIsLeftOut) {
   const Vec2 crossing = at(0.5, 0.3), end = at(0.5, 0.298);
-  const std::vector<InnerArc> arcs{arc({at(0.1, 0.3), crossing}, 0, 0, 0), arc({crossing, at(0.9, 0.3)}, 0, 0, 0),
-                                   arc({at(0.5, 0.7), crossing}, 1, 0, 0), arc({crossing, end}, 1, 0, 0),
-                                   arc({crossing, at(0.499, 0.302)}, 2, 0, 0)};
+  const std::vector<InnerArc> arcs{arc_of({at(0.1, 0.3), crossing}, 0, 0, 0), arc_of({crossing, at(0.9, 0.3)}, 0, 0, 0),
+                                   arc_of({at(0.5, 0.7), crossing}, 1, 0, 0), arc_of({crossing, end}, 1, 0, 0),
+                                   arc_of({crossing, at(0.499, 0.302)}, 2, 0, 0)};
   const SnappedArcs result = snapped(arcs);
   EXPECT_EQ(result.joined.loose_ends, 1);
   EXPECT_NEAR(result.joined.longest_end, 0.002, 1e-9);
@@ -121,16 +106,16 @@ TEST_F(SnapCurves, ManyVerticesNearACrossingStay) {
   std::vector<Vec2> path{at(0.5, 0.3)};
   for (int k = 1; k < 50; ++k)
     path.push_back(at(0.5 + 1e-5 * k * k, 0.3 + 0.001 * k));
-  const SnappedArcs result =
-      snapped({arc({at(0.1, 0.3), path[0]}, 0, 0, 0), arc({path[0], at(0.9, 0.3)}, 0, 0, 0), arc(path, 0, 0, 0)});
+  const SnappedArcs result = snapped(
+      {arc_of({at(0.1, 0.3), path[0]}, 0, 0, 0), arc_of({path[0], at(0.9, 0.3)}, 0, 0, 0), arc_of(path, 0, 0, 0)});
   EXPECT_EQ(result.joined.vertices, 0);
 }
 
 TEST_F(SnapCurves, TwoLinesBetweenTwoCrossingsBecomeOneUnlessOneIsSplit) {
   const Vec2 a = at(0.4, 0.3), b = at(0.45, 0.3);
-  const std::vector<InnerArc> arcs{arc({at(0.1, 0.3), a}, 0, 0, 0), arc({a, b}, 0, 0, 0),
-                                   arc({b, at(0.9, 0.3)}, 0, 0, 0), arc({a, at(0.447, 0.302), b}, 1, 0, 0),
-                                   arc({b, at(0.6, 0.1)}, 1, 0, 0)};
+  const std::vector<InnerArc> arcs{arc_of({at(0.1, 0.3), a}, 0, 0, 0), arc_of({a, b}, 0, 0, 0),
+                                   arc_of({b, at(0.9, 0.3)}, 0, 0, 0), arc_of({a, at(0.447, 0.302), b}, 1, 0, 0),
+                                   arc_of({b, at(0.6, 0.1)}, 1, 0, 0)};
   EXPECT_EQ(snapped(arcs).joined.vertices, 1);
   std::vector<geometry::CurveKind> kinds(2);
   kinds[1].split = true;

@@ -2,6 +2,7 @@
 // Tests that lines become one where they come near each other between their vertices, and stay two elsewhere.
 #include "generalise/zip_lines.hpp"
 
+#include "arc_paths.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/geometry/lattice.hpp"
 #include "trime/sizing/size_field.hpp"
@@ -23,32 +24,14 @@ constexpr double h = 0.05;
 class ZipLines : public ::testing::Test {
 protected:
   Vec2 at(double x, double y) const { return lattice_.snap({x, y}); }
-  static std::vector<geometry::Piece> pieces(const std::vector<Vec2>& path, int part, int region = 0) {
-    std::vector<geometry::Piece> made;
-    for (std::size_t k = 1; k < path.size(); ++k) {
-      geometry::Piece& piece = made.emplace_back();
-      piece.start = path[k - 1];
-      piece.end = path[k];
-      piece.part = part;
-      piece.region = region;
-    }
-    return made;
-  }
-  static InnerArc arc(const std::vector<Vec2>& path, int part, int left, int right) {
-    InnerArc made;
-    made.pieces = pieces(path, part);
-    made.left = left;
-    made.right = right;
-    return made;
-  }
   /// The unit square, with an interface at half of its height and region 0 above.
   std::optional<Partition> zipped(const std::vector<Vec2>& curve, int region) const {
     Partition given;
     given.curves.names = {"fault"};
-    given.curves.arcs = {arc(curve, 0, region, region), arc({at(0, 0.5), at(1, 0.5)}, -1, 0, 1)};
+    given.curves.arcs = {arc_of(curve, 0, region, region), arc_of({at(0, 0.5), at(1, 0.5)}, -1, 0, 1)};
     std::vector<geometry::Piece>& rim = given.boundary.loops.emplace_back().pieces;
-    rim = pieces({at(0, 0.5), {0, 0}, {1, 0}, at(1, 0.5)}, 0, 1);
-    for (const geometry::Piece& piece : pieces({at(1, 0.5), {1, 1}, {0, 1}, at(0, 0.5)}, 0, 0))
+    rim = pieces_of({at(0, 0.5), {0, 0}, {1, 0}, at(1, 0.5)}, 0, 1);
+    for (const geometry::Piece& piece : pieces_of({at(1, 0.5), {1, 1}, {0, 1}, at(0, 0.5)}, 0, 0))
       rim.push_back(piece);
     const std::array<std::array<int, 2>, 1> pairs{{{0, 1}}};
     return zip_lines(given, {sizing::UniformSize(h), lattice_, {}}, pairs);
