@@ -6,6 +6,7 @@
 #include "trime/core/types.hpp"
 #include "trime/geometry/vec2.hpp"
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -27,6 +28,12 @@ public:
   template <class Visit>
   void for_each_within(geometry::Vec2 center, double radius, const Visit& visit) const {
     visit_within(center, radius, 0, items_.size(), visit);
+  }
+  /// Calls visit(item) for items whose distance from `center` is less than `radius`, near ones first as far as the tree
+  /// allows. visit returns the radius for the items that follow.
+  template <class Visit>
+  void for_each_nearer(geometry::Vec2 center, double radius, const Visit& visit) const {
+    visit_nearer(center, radius, 0, items_.size(), visit);
   }
   std::size_t size() const { return items_.size(); }
   const std::vector<Entry>& items() const { return items_; }
@@ -54,6 +61,25 @@ private:
       visit(item);
     if (offset >= -radius)
       visit_within(center, radius, middle + 1, high, visit);
+  }
+  template <class Visit>
+  void visit_nearer(geometry::Vec2 center, double& radius, std::size_t low, std::size_t high,
+                    const Visit& visit) const {
+    if (high - low <= leaf_size) {
+      for (std::size_t k = low; k < high; ++k)
+        if (geometry::squared_length(items_[k].position - center) < radius * radius)
+          radius = visit(items_[k]);
+      return;
+    }
+    const std::size_t middle = low + (high - low) / 2;
+    const Entry& item = items_[middle];
+    const double offset = split_y_[middle] ? center.y - item.position.y : center.x - item.position.x;
+    const bool is_low = offset <= 0;
+    visit_nearer(center, radius, is_low ? low : middle + 1, is_low ? middle : high, visit);
+    if (geometry::squared_length(item.position - center) < radius * radius)
+      radius = visit(item);
+    if (std::fabs(offset) <= radius)
+      visit_nearer(center, radius, is_low ? middle + 1 : low, is_low ? high : middle, visit);
   }
 
   static constexpr std::size_t leaf_size = 8;

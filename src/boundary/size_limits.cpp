@@ -142,7 +142,8 @@ private:
     const geometry::Segment out = boundary_.chord(k);
     const Vec2 ahead = out.b - out.a, back = boundary_.chord(previous(k)).a - boundary_.chord(previous(k)).b;
     double gap = std::numeric_limits<double>::infinity();
-    tree_.for_each_within(out.a, reach, [&](const SiteTree::Entry& item) {
+    constexpr double rounding = 1 + 1e-12; // must not hide a nearer site
+    tree_.for_each_nearer(out.a, reach, [&](const SiteTree::Entry& item) {
       const Vec2 across = item.position - out.a;
       const bool left_of_ahead = geometry::cross(ahead, across) > 0, right_of_back = geometry::cross(across, back) > 0;
       const bool inside =
@@ -150,6 +151,7 @@ private:
       if (const double distance = geometry::length(across);
           inside && distance < gap && !is_around_corner(k, item.index))
         gap = distance;
+      return std::fmin(reach, rounding * gap);
     });
     return gap;
   }

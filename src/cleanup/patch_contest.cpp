@@ -225,8 +225,10 @@ bool PatchContest::hold(Patch& now, const Corners& worst, const PatchBudget& bud
   if (is_against_obtuse_)
     operations_.list_against_obtuse(now, place);
   try_operations(now, place, budget, bar);
-  if (!bar.found && (is_against_obtuse_ ? budget.is_last : !is_first && now.has_wall(worst)))
+  if (!bar.found && (is_against_obtuse_ ? budget.is_last : !is_first && now.has_wall(worst))) {
     try_pairs(place, budget, bar);
+    score_.begin(now, place, budget.obtuse_weight); // pairs score other patches, which may have more vertices
+  }
   const double least_bad = budget.is_again ? Rules::refine_alpha : Rules::refine_alpha_at_first;
   if (!is_first && !is_against_obtuse_ && std::fmin(place.alpha, bar.largest) > least_bad && !operations_.all().empty())
     try_refining(now, place, budget, bar);

@@ -70,11 +70,11 @@ public:
     double smallest = 0;
     comm::run_agreed(context_.comm, [&] { smallest = smallest_sampled_size(context_); });
     if (context_.options.points) {
+      if (generalises(context_) && !context_.domain.curves().empty())
+        plain_ = plain_factor(uniform, uniform / smallest);
       DensityResult found = for_points(uniform, smallest);
-      if (const SizeTrial* trial = std::get_if<SizeTrial>(&found);
-          trial && generalises(context_) && !context_.domain.curves().empty())
-        if (std::optional<TooFewPoints> few = too_coarse(*trial, uniform, uniform / smallest))
-          return *few;
+      if (const SizeTrial* trial = std::get_if<SizeTrial>(&found); trial && is_too_coarse(*trial))
+        return too_few_plainly();
       return found;
     }
     return for_edge_length(uniform / smallest);
@@ -158,7 +158,7 @@ private:
         continue;
       }
       const double growth = crowded && trials_.limit_rounds() == BoundaryRules::lowering_rounds ? limits_to_come : 1;
-      factor = search_.next(factor, growth * trials_.count(std::move(laid), rough_).points);
+      factor = std::fmin(search_.next(factor, growth * trials_.count(std::move(laid), rough_).points), coarsest());
     }
     return {factor, std::nullopt};
   }
@@ -185,7 +185,9 @@ private:
       const double guess = search_.next(factor, points);
       if (bracket.add(factor, points))
         found.best = std::move(trial);
-      factor = bracket.next(factor, guess, overfull);
+      if (!bracket.has_upper() && factor >= coarsest())
+        break;
+      factor = std::fmin(bracket.next(factor, guess, overfull), coarsest());
       if (bracket.is_hopeless(factor))
         break;
     }
@@ -197,9 +199,12 @@ private:
   /// @param smallest size for a factor of 1
   DensityResult for_points(double uniform, double smallest) {
     FactorBracket bracket(points_, smallest, context_.domain.frame().container());
-    Search found = search(approached(begin_ ? begin_->factor : first_factor(uniform, uniform / smallest)), bracket);
+    const double first = begin_ ? begin_->factor : first_factor(uniform, uniform / smallest);
+    Search found = search(approached(std::fmin(first, coarsest())), bracket);
     if (found.accepted)
       return std::move(*found.accepted);
+    if (!found.fits && plain_ < INFINITY)
+      return too_few_plainly();
     if (!found.fits)
       return too_small_size(context_, trials_.steep().limits).value_or(too_few_points(context_, found.fewest));
     const bool jumps = bracket.has_lower() && found.best.points < enough_points * points_;
@@ -231,17 +236,25 @@ private:
     return finer.best.points > best.points ? std::move(finer.best) : std::move(best);
   }
 
-  /// @brief Narrow places inside may take nearly all points. The triangles elsewhere would then be large, and regions
-  /// that the user gave would be simplified away. In this case there are too few points.
-  /// @param trial the result @param factor with which the size is nowhere smaller than a uniform one
-  std::optional<TooFewPoints> too_coarse(const SizeTrial& trial, double uniform, double factor) {
-    const double found = std::fmax(trial.fitted.factor, trial.fitted.curves.factor);
+  /// @brief The factor without regard to narrow places inside. They may take nearly all points; the triangles elsewhere
+  /// would then be large, and regions that the user gave would be simplified away. So there are too few points where
+  /// the factor would be much larger than this one.
+  /// @param factor with which the size is nowhere smaller than a uniform one
+  double plain_factor(double uniform, double factor) {
     CountEstimate estimate(context_, points_, FitRules::reference_spacing * uniform,
                            std::fmax(rough_, FitRules::reference_coarsening));
-    const double plain = estimated_factor(estimate, factor, false); // without narrow places
-    if (found <= FitRules::coarsest_partition * plain)
-      return std::nullopt;
-    const SizeTrial needed = SizeTrials(context_, points_, trials_.coarsening()).run(plain);
+    return estimated_factor(estimate, factor, false);
+  }
+
+  double coarsest() const { return FitRules::coarsest_partition * plain_; }
+
+  bool is_too_coarse(const SizeTrial& trial) const {
+    return std::fmax(trial.fitted.factor, trial.fitted.curves.factor) > coarsest();
+  }
+
+  /// What the plain factor takes.
+  TooFewPoints too_few_plainly() {
+    const SizeTrial needed = SizeTrials(context_, points_, trials_.coarsening()).run(plain_);
     Fewest fewest;
     fewest.consider(needed.fit.stage, needed.points, needed.fit.inner <= FitRules::hopelessly_many * points_);
     return too_few_points(context_, fewest);
@@ -275,6 +288,7 @@ private:
   double
       rough_; // coarsening during the search: with many points, cells that are twice as wide still err by less than 1 %
   FactorSearch search_;
+  double plain_ = INFINITY; ///< the plain factor, if it limits the search
 };
 
 } // namespace

@@ -41,11 +41,14 @@ constexpr double comparable_spacing = 2;
 using sites::Stage;
 
 /// @brief Returns the sites on the boundary at size h, or at the next larger size at which they are at most the points
-/// asked for. Returns nothing if no such size exists, or it is too large for that number of points.
+/// asked for. Returns nothing if no such size exists, or it is too large for that number of points, or so large that
+/// regions and curves inside would go.
 /// @param fitted becomes that size, and what was made for it
 std::optional<Stage> lay_affordable_boundary(const LayoutContext& context, double h, double expected,
                                              FittedSize& fitted, Fewest& fewest) {
-  for (int round = 0; round < growth_rounds; ++round) {
+  const double largest =
+      generalises(context) && !context.domain.curves().empty() ? FitRules::coarsest_partition * h : INFINITY;
+  for (int round = 0; round < growth_rounds && h <= largest; ++round) {
     fitted.factor = h;
     Stage stage = try_boundary(context, fitted, expected);
     const double held = static_cast<double>(stage.placed_first());

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -30,7 +31,45 @@ constexpr std::size_t most_edges = 4;
 // [1] Two curves that meet follow each other if their distance is below this share of the way along them from one to
 // the other: they then meet at less than about 20 degrees. Not measured.
 constexpr double narrow_share = 0.35;
-constexpr std::size_t most_steps = 1000; // along curves with very many vertices; those that are not searched stay apart
+// Of a search along curves with very many vertices, or with very many nodes; curves beyond stay apart.
+constexpr std::size_t most_steps = 1000, most_nodes = 16;
+
+/// The lengths of short ways along the edges of a net from a vertex to others. Cost: that of the vertices on them.
+class ShortWays {
+public:
+  /// @param longest of the ways
+  ShortWays(const EdgeNet& net, LocalIndex from, double longest) {
+    std::set<std::pair<double, LocalIndex>> open{{0.0, from}}; // the nearest vertex first (Dijkstra's algorithm)
+    std::size_t nodes = 0;
+    while (!open.empty() && ways_.size() < most_steps && nodes < most_nodes) {
+      const auto [way, v] = *open.begin();
+      open.erase(open.begin());
+      if (!ways_.emplace(v, way).second)
+        continue;
+      nodes += net.around(v).size() > 2;
+      for (const LocalIndex f : net.around(v)) {
+        const LocalIndex to = net.edge(f).a == v ? net.edge(f).b : net.edge(f).a;
+        const double longer = way + length(net.place(to) - net.place(v));
+        if (longer < longest && !ways_.contains(to))
+          open.emplace(longer, to);
+      }
+    }
+    known_ = open.empty() ? longest : open.begin()->first;
+  }
+
+  /// Are the ways to both vertices known to be so long? @param bound at most the longest
+  bool are_at_least(double bound, LocalIndex a, LocalIndex b) const {
+    const auto is_long = [&](LocalIndex v) {
+      const auto found = ways_.find(v);
+      return found == ways_.end() || found->second >= bound;
+    };
+    return bound <= known_ && is_long(a) && is_long(b);
+  }
+
+private:
+  std::map<LocalIndex, double> ways_;
+  double known_ = 0; // longer ways are not known
+};
 
 class ArcSnapper {
 public:
@@ -84,7 +123,7 @@ private:
 
   /// May the edge lead through the vertex? One of both belongs to a curve and the other one to an interface or to
   /// another curve, and the line of the edge does not pass the vertex already.
-  bool may_meet(LocalIndex v, LocalIndex e) const {
+  bool may_meet(LocalIndex v, LocalIndex e, const ShortWays& ways) const {
     const EdgeNet::Edge& edge = net_.edge(e);
     const bool is_curve = edge.is_curve(), is_interface = edge.is_interface();
     if (edge.piece.circular || v == edge.a || v == edge.b || (!is_curve && !is_interface))
@@ -97,7 +136,7 @@ private:
       is_other |= is_curve ? its.left != its.right && its.piece.part != edge.piece.part : its.piece.part >= 0;
       is_of_curve |= is_curve && may_be_one(its, edge);
     }
-    return is_other || (is_of_curve && (is_sliver(v, e) || is_narrow(v, e)));
+    return is_other || (is_of_curve && (is_sliver(v, e) || is_narrow(v, e, ways)));
   }
 
   bool is_split(int part) const {
@@ -123,24 +162,12 @@ private:
   }
 
   /// Is the way along curves from the vertex to the edge long, compared with their distance?
-  bool is_narrow(LocalIndex v, LocalIndex e) const {
-    const double most = std::sqrt(pair_of(v, e).squared_distance) / narrow_share;
-    std::vector<std::pair<LocalIndex, double>> reached{{v, 0.0}}; // the few vertices on short ways
-    for (std::size_t k = 0; k < reached.size(); ++k) {
-      const auto [from, way] = reached[k];
-      for (const LocalIndex f : net_.around(from)) {
-        const LocalIndex to = net_.edge(f).a == from ? net_.edge(f).b : net_.edge(f).a;
-        const double longer = way + length(net_.place(to) - net_.place(from));
-        const auto is_it = [&](const auto& one) { return one.first == to; };
-        if (longer >= most || std::ranges::any_of(reached, is_it))
-          continue;
-        if (to == net_.edge(e).a || to == net_.edge(e).b || reached.size() == most_steps)
-          return false;
-        reached.emplace_back(to, longer);
-      }
-    }
-    return true;
+  bool is_narrow(LocalIndex v, LocalIndex e, const ShortWays& ways) const {
+    return ways.are_at_least(std::sqrt(pair_of(v, e).squared_distance) / narrow_share, net_.edge(e).a, net_.edge(e).b);
   }
+
+  /// The ways that decide for edges within a distance of the vertex.
+  ShortWays ways_from(LocalIndex v, double distance) const { return {net_, v, distance / narrow_share}; }
 
   /// Such pairs within reach, the nearest first: for each vertex with its nearest edges, so that the memory does not
   /// grow with the number of edges within reach. Others come in a later round.
@@ -152,11 +179,16 @@ private:
       const double reach = reach_at(v);
       std::vector<Near> here;
       for (const std::size_t k : tree_.within(net_.place(v), reach))
-        if (k >= rim_.size() && may_meet(v, edges_[k - rim_.size()]))
+        if (k >= rim_.size())
           here.push_back(pair_of(v, edges_[k - rim_.size()]));
       std::ranges::sort(here, {}, order_of);
-      here.resize(std::min(here.size(), most_edges));
-      pairs.insert(pairs.end(), here.begin(), here.end());
+      const ShortWays ways = ways_from(v, reach);
+      std::size_t found = 0;
+      for (std::size_t k = 0; k < here.size() && found < most_edges; ++k)
+        if (may_meet(v, here[k].edge, ways)) {
+          pairs.push_back(here[k]);
+          ++found;
+        }
     }
     std::ranges::sort(pairs, {}, order_of);
     return pairs;
@@ -187,7 +219,7 @@ private:
 
   void snap(LocalIndex v, LocalIndex given) {
     const LocalIndex e = living(given, v);
-    if (e < 0 || !may_meet(v, e))
+    if (e < 0 || !may_meet(v, e, ways_from(v, std::sqrt(pair_of(v, e).squared_distance))))
       return;
     const double distance = std::sqrt(pair_of(v, e).squared_distance), reach = reach_at(v);
     if (!(distance + net_.edge(e).moved < reach) || !is_free(v, e, reach))

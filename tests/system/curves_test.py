@@ -8,6 +8,7 @@ import math
 import os
 import pathlib
 import random
+import re
 import subprocess
 import unittest
 from collections import Counter
@@ -205,6 +206,25 @@ class Curves(WorkspaceCase):
         self.assertEqual(sorted(Counter(nodes.values()).items()), [(1, 7), (3, 3)])
         self.assertIn("1 end of curves beyond other curves or interfaces is left out", self.report)
         self.assertLess(mesh.alpha().max(), 1.5)
+
+    def test_many_from_one_place(self):
+        """Sixteen curves from one place: the clean-up tries pairs of changes between them, and refines."""
+        angles = [k * math.pi / 8 for k in range(16)]
+        self.write("spokes.xy", *([(0.5, 0.5), (0.5 + 0.4 * math.cos(a), 0.5 + 0.4 * math.sin(a))] for a in angles))
+        mesh = self.mesh(section("spoke", "spokes.xy"), points=5000)
+        self.assertEqual(mesh.nodes()[(0.5, 0.5)], 16)
+        self.assertAlmostEqual(mesh.length(), 16 * 0.4, delta=1e-10)
+        self.assertLess(mesh.alpha().max(), 1.8)
+
+    def test_more_curves_than_points(self):
+        """A net that is finer than the triangles: refused soon, with the number that it takes."""
+        lines = [[(k / 16 + 0.03, 0), (k / 16 + 0.03, 1)] for k in range(16)]
+        self.write("net.xy", *lines, *([(y, x) for x, y in line] for line in lines))
+        done = self.run_config(section("net", "net.xy"), points=150)
+        self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
+        needed = re.search(r"; ([0-9]+) points are enough", done.stderr)
+        self.assertTrue(needed, done.stderr)
+        self.mesh(section("net", "net.xy"), points=int(needed[1]))
 
     def test_sizes(self):
         """Lengths on a curve, and distances to it in a formula."""

@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Makes random configs for random_runs.py: shapes of all kinds of parts, sizes, methods, periods, fixed points, and
-sometimes a value that nobody would write.
+"""Makes random configs for random_runs.py: shapes of all kinds of parts, regions, curves, sizes, methods, periods,
+fixed points, and sometimes a value that nobody would write.
 """
 import math
+import random
+
+from random_insides import RandomInsides
 
 EXTREME = ["0", "-1", "1", "3", "0.5", "1e-9", "1e-30", "1e-300", "1e9", "1e30", "1e300", "nan", "inf", "-1e15", "90"]
 SIZES = ["1+3*{x}+3*{y}", "max(0.02,sqrt(({x}-0.5)^2+({y}-0.5)^2))", "0.1+{x}*{x}", "exp(-4*{x})", "{x}>0.5 ? 1 : 3",
@@ -30,7 +33,11 @@ class RandomConfig:
             self.shift = (rng.uniform(-5, 5) * self.scale, rng.uniform(-5, 5) * self.scale)
         self.periodic = [rng.random() < 0.2 for _ in range(2)]
         self.vertices = []
-        sections = [("shape", self.shape())] + self.parts + [
+        shape = self.shape()
+        # Their own random numbers, so that the rest of a config does not depend on them.
+        insides = RandomInsides(random.Random(repr(rng.getstate())), self.place, self.scale)
+        self.files |= insides.files
+        sections = [("shape", shape | insides.rest)] + self.parts + insides.sections + [
             ("domain", self.domain()), ("sizing", self.sizing()), ("meshing", self.meshing()),
             ("parallel", {"mesh_threads": rng.choice([1, 2, 7, 4096])} if rng.random() < 0.1 else {}),
             ("output", self.output())]
