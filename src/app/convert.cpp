@@ -237,6 +237,7 @@ ExitCode convert(const CommandLine& line, io::RunFiles* files, const comm::Commu
   formats::Names names = names_of(metadata);
   refuse(names);
   names.in_degrees = line.in_degrees;
+  names.cells = formats::cell_kind_of_word(line.cells);
   const mesh::DistributedMesh mesh = io::read_mesh(from, metadata, comm);
   if (is_marked(metadata))
     log.warning("{} holds a mesh that is NOT complete, see 'trime_mpi info {}'", from, from);

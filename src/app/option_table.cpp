@@ -544,6 +544,13 @@ const Option table[] = {
                 "latitude, "
                 "for meshes of contours that have a projection"},
     {.section = "output",
+     .key = "cells",
+     .kind = OptionKind::word,
+     .fallback = "voronoi",
+     .choices = "voronoi whole",
+     .meaning = "cells in files of `mpas`; voronoi: the Voronoi cells of all points, which the boundary cuts; whole: "
+                "those of the points inside, which no boundary cuts"},
+    {.section = "output",
      .key = "depth",
      .kind = OptionKind::text,
      .fallback = "none",

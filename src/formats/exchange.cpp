@@ -38,6 +38,7 @@ constexpr FormatInfo table[] = {
     {Format::exodus, "exodus", ".exo", false, true, plan_exodus},
     {Format::ugrid, "ugrid", ".nc", false, true, plan_ugrid},
     {Format::ugrid_cells, "ugrid_cells", "_cells.nc", false, true, plan_ugrid_cells},
+    {Format::mpas, "mpas", "_mpas.nc", true, true, plan_mpas},
 };
 
 /// Numbers of MSH 2.2 have 32 bits, as have those of most programs that read the text formats.
@@ -79,6 +80,10 @@ std::optional<Format> format_of_word(const std::string& word) {
   return {};
 }
 
+CellKind cell_kind_of_word(const std::string& word) {
+  return word == "whole" ? CellKind::whole : CellKind::voronoi;
+}
+
 std::optional<Format> format_of_path(const std::string& path) {
   const FormatInfo* found = nullptr; // with the longest ending
   for (const FormatInfo& row : table)
@@ -108,6 +113,8 @@ std::vector<std::string> paths_of(Format format, const std::string& path, const 
     paths.push_back(stem + ".cli");
   if (format == Format::disv)
     paths.push_back(stem + ".zones");
+  if (format == Format::mpas)
+    paths.push_back(stem + "_graph.info");
   if (format == Format::uge)
     for (const std::string& part : solver_names(names.parts))
       paths.push_back(stem + "_" + part + ".ex");

@@ -113,6 +113,7 @@ std::vector<FilePlan> plan_triangle(const ExchangeMesh& mesh, const std::string&
 std::vector<FilePlan> plan_voronoi(const ExchangeMesh& mesh, const std::string& path);
 std::vector<FilePlan> plan_disv(const ExchangeMesh& mesh, const std::string& path);
 std::vector<FilePlan> plan_uge(const ExchangeMesh& mesh, const std::string& path);
+std::vector<FilePlan> plan_mpas(const ExchangeMesh& mesh, const std::string& path);
 std::vector<FilePlan> plan_vtu(const ExchangeMesh& mesh, const std::string& path);
 std::vector<FilePlan> plan_sms(const ExchangeMesh& mesh, const std::string& path);
 std::vector<FilePlan> plan_adcirc(const ExchangeMesh& mesh, const std::string& path);

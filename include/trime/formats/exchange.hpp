@@ -22,8 +22,8 @@ struct FilePlan;
 
 /// The output formats. vtkhdf and xdmf describe the arrays of NAME.h5 for other readers, and text has the files of
 /// TriMe++. The formats gmsh, gmsh2 and sms are MSH 4.1, MSH 2.2 and .2dm; schism is hgrid.gr3, and telemac is Selafin
-/// with its boundary conditions. The formats voronoi, disv (MODFLOW 6) and uge (PFLOTRAN) have the Voronoi cells of the
-/// points, not the triangles. The faces of ugrid are triangles, and those of ugrid_cells the cells.
+/// with its boundary conditions. The formats voronoi, mpas, disv (MODFLOW 6) and uge (PFLOTRAN) have the Voronoi cells
+/// of the points, not the triangles. The faces of ugrid are triangles, and those of ugrid_cells the cells.
 enum class Format {
   vtkhdf,
   xdmf,
@@ -46,8 +46,18 @@ enum class Format {
   abaqus,
   exodus,
   ugrid,
-  ugrid_cells
+  ugrid_cells,
+  mpas
 };
+
+/// The cells in files of mpas.
+enum class CellKind {
+  voronoi, ///< of all points; on the boundary the boundary edges cut them
+  whole    ///< of the points inside
+};
+
+/// Returns the kind of cells that a config calls so. @pre the word is one of them
+CellKind cell_kind_of_word(const std::string& word);
 
 /// One row of the table of formats. Config, --help, `trime_mpi convert` and the output of a run take all facts about a
 /// format from this row.
@@ -87,6 +97,7 @@ struct Names {
   std::optional<std::vector<std::string>> open_boundary{};
   /// The files of fort14 and 2dm hold longitude and latitude, not the coordinates of the mesh. Needs `crs`.
   bool in_degrees = false;
+  CellKind cells = CellKind::voronoi;
   std::vector<geometry::CurveKind> curve_kinds{}; ///< kinds of the curves, see geometry::InnerCurves::kinds
 };
 
