@@ -35,8 +35,9 @@ void declare(CLI::App& app, CommandLine& line, Flags& flags) {
   app.add_flag("--print-config", flags.print_config, "print the config with all defaults, as a complete file");
   app.add_flag("--overwrite", flags.overwrite, "with convert and refine: replace the file OUT if it exists");
   app.add_flag("--degrees", flags.degrees, "with convert: write longitude and latitude into .14, .gr3 and .2dm");
-  app.add_option("--cells", flags.cells, "with convert: voronoi or whole, the cells in _mpas.nc")
-      ->check(CLI::IsMember({"voronoi", "whole"}));
+  app.add_option("--cells", flags.cells,
+                 "with convert: voronoi, whole or triangles, the cells in _mpas.nc, .disv, .uge and .tough")
+      ->check(CLI::IsMember({"voronoi", "whole", "triangles"}));
   app.add_flag("--all", flags.all, "with info: print whole lists of names, however long");
   app.add_option("--report", line.report, "write the report of the run to this file, as JSON");
   app.add_option("--record", line.report)->group(""); // its name in earlier versions; not in the help

@@ -253,6 +253,8 @@ void print_cells(const formats::Exported& made, Log& log) {
   if (made.checks.empty())
     return;
   log.summary("{}", made.summary);
+  if (!made.warning.empty())
+    log.warning("{}", made.warning);
   for (const mesh::Check& check : made.checks)
     if (!check.passed)
       log.warning("the Voronoi cells are NOT right: check {} FAILED: expected {:.15g}, found {:.15g} ({})", check.name,

@@ -28,7 +28,7 @@ LocalIndex local_point(const Cells& cells, GlobalId number) {
   return cells.site_count + static_cast<LocalIndex>(found - cells.foreign.begin());
 }
 
-std::size_t slot_of(const CellTriangle& triangle, LocalIndex point) {
+std::size_t corner_slot(const CellTriangle& triangle, LocalIndex point) {
   return triangle.corners[0] == point ? 0 : triangle.corners[1] == point ? 1 : 2;
 }
 
@@ -53,7 +53,7 @@ LocalIndex StaggeredGrid::spoke_end(LocalIndex site, std::size_t spoke) const {
   const Fan fan = cells_.fan(site);
   const bool is_last = spoke == fan.triangles.size(); // on the boundary
   const CellTriangle& triangle = cells_.triangles[at(fan.triangles[is_last ? spoke - 1 : spoke])];
-  return triangle.corners[(slot_of(triangle, site) + (is_last ? 2 : 1)) % 3];
+  return triangle.corners[(corner_slot(triangle, site) + (is_last ? 2 : 1)) % 3];
 }
 
 /// Returns the end with a cell, the lower number if both have one; -1 if none has.

@@ -6,7 +6,9 @@
 #include "facade/build_shape.hpp"
 #include "facade/check_options.hpp"
 #include "facade/names.hpp"
+#include "formats/cell_arrays.hpp"
 #include "formats/output_files.hpp"
+#include "io/extra_arrays.hpp"
 #include "record/groups.hpp"
 #include "sizing/rules.hpp"
 #include "trime/comm/from_mpi.hpp"
@@ -334,7 +336,10 @@ void Mesh::write(const std::string& path, const WriteOptions& options) const {
     formats::refuse_to_replace(paths, options.overwrite, how_to_replace, comm);
     for (const std::string& warning : formats::check_output(target, comm))
       fmt::print(stderr, "warning: {}\n", warning);
-    io::write_mesh(target, result().mesh, implementation_->metadata, comm);
+    std::vector<io::ExtraGroup> groups;
+    if (options.voronoi)
+      groups.push_back(formats::cell_arrays(result().mesh, origin.period, comm));
+    io::write_mesh_and(groups, target, result().mesh, implementation_->metadata, comm);
     return;
   }
   const auto format = formats::format_of_path(path);
@@ -342,10 +347,13 @@ void Mesh::write(const std::string& path, const WriteOptions& options) const {
     throw ConfigError(fmt::format("{}: expected a path that ends in .h5, or in the ending of another format, such as "
                                   ".msh, .vtu or .geojson",
                                   path));
-  const formats::Names names = names_of(origin);
+  formats::Names names = names_of(origin);
+  names.cells = options.cells;
   formats::refuse_to_replace(formats::paths_of(*format, path, names), options.overwrite, how_to_replace, comm);
   make_directory_of(file, comm);
   const formats::Exported made = formats::write(*format, path, result().mesh, names, nullptr, comm);
+  if (!made.warning.empty() && comm.is_root())
+    fmt::print(stderr, "warning: {}: {}\n", path, made.warning);
   for (const mesh::Check& check : made.checks)
     if (!check.passed && comm.is_root())
       fmt::print(stderr, "warning: {}: check {} FAILED: expected {:.15g}, found {:.15g} ({})\n", path, check.name,

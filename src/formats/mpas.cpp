@@ -59,7 +59,7 @@ struct Target {
 };
 
 /// CDF-2 as long as all arrays fit.
-NetcdfFormat format_for(const dual::StaggeredGrid& grid) {
+NetcdfFormat mpas_format(const dual::StaggeredGrid& grid) {
   constexpr std::int64_t most_bytes = (std::int64_t{1} << 32) - 4, bytes = 8;
   const std::int64_t largest = std::max({2 * grid.most_edges() * grid.edge_count(), 3 * grid.vertex_count()});
   return bytes * largest <= most_bytes ? NetcdfFormat::offset_64 : NetcdfFormat::data_64;
@@ -71,7 +71,7 @@ public:
   enum Place : std::size_t { cell, edge, vertex };
 
   MpasFile(const std::shared_ptr<const Grid>& grid, const ExchangeMesh& mesh)
-      : grid_(grid), mesh_(mesh), header_(format_for(grid->staggered)),
+      : grid_(grid), mesh_(mesh), header_(mpas_format(grid->staggered)),
         id_type_(grid->staggered.edge_count() < most_int32 ? NetcdfType::int32 : NetcdfType::int64) {
     const Vec2 period = mesh.names().period;
     const bool is_periodic = period.x > 0 || period.y > 0;
