@@ -2,6 +2,7 @@
 #include "dual/staggered.hpp"
 
 #include "comm/outbox.hpp"
+#include "core/thread_loop.hpp"
 
 #include <algorithm>
 #include <tuple>
@@ -40,6 +41,7 @@ StaggeredGrid::StaggeredGrid(const Cells& cells, bool only_whole, const comm::Co
   comm::run_agreed(comm, [&] { find_foreign(); });
   fetch_numbers(foreign_edges_, edge, comm);
   fetch_numbers(foreign_vertices_, vertex, comm);
+  comm::run_agreed(comm, [&] { number_triangles(); });
   fetch_rings(comm);
 }
 
@@ -157,7 +159,7 @@ GlobalId StaggeredGrid::number_in(const std::vector<Foreign>& table, GlobalId ow
   return found != table.end() && found->owner == owner && found->other == other ? found->number : -1;
 }
 
-GlobalId StaggeredGrid::edge_at(LocalIndex a, LocalIndex b) const {
+GlobalId StaggeredGrid::find_edge(LocalIndex a, LocalIndex b) const {
   const LocalIndex owner = owner_of(a, b), other = owner == a ? b : a;
   if (owner < 0)
     return -1;
@@ -165,7 +167,7 @@ GlobalId StaggeredGrid::edge_at(LocalIndex a, LocalIndex b) const {
                                    : number_in(foreign_edges_, cells_.number_of(owner), cells_.number_of(other));
 }
 
-GlobalId StaggeredGrid::vertex_at(LocalIndex triangle) const {
+GlobalId StaggeredGrid::find_vertex(LocalIndex triangle) const {
   const LocalIndex owner = owner_of(triangle);
   if (owner < 0)
     return -1;
@@ -213,6 +215,27 @@ void StaggeredGrid::fetch_numbers(std::vector<Foreign>& table, Kind kind, const 
       (wanted++)->number = number;
 }
 
+/// Numbers the sides of all triangles and the triangles, so that they are looked up fast from now on.
+void StaggeredGrid::number_triangles() {
+  sides_.resize(cells_.triangles.size());
+  vertices_.resize(cells_.triangles.size());
+  thread_loop(std::ssize(cells_.triangles), 1024, [&](std::ptrdiff_t t, int) {
+    const auto& corners = cells_.triangles[static_cast<std::size_t>(t)].corners;
+    for (std::size_t k = 0; k < 3; ++k)
+      sides_[static_cast<std::size_t>(t)][k] = find_edge(corners[k], corners[(k + 1) % 3]);
+    vertices_[static_cast<std::size_t>(t)] = find_vertex(static_cast<LocalIndex>(t));
+  });
+  foreign_edges_ = {};
+  foreign_vertices_ = {};
+}
+
+GlobalId StaggeredGrid::edge_of_spoke(LocalIndex site, std::size_t spoke) const {
+  const Fan fan = cells_.fan(site);
+  const bool is_last = spoke == fan.triangles.size(); // on the boundary
+  const LocalIndex triangle = fan.triangles[is_last ? spoke - 1 : spoke];
+  return edge_at(triangle, (corner_slot(cells_.triangles[at(triangle)], site) + (is_last ? 2 : 0)) % 3);
+}
+
 /// Fetches the rings of cells of other ranks that are the second ones of edges of this rank.
 void StaggeredGrid::fetch_rings(const comm::Communicator& comm) {
   std::vector<LocalIndex> wanted;
@@ -240,11 +263,25 @@ void StaggeredGrid::fetch_rings(const comm::Communicator& comm) {
     }
 }
 
+const StaggeredGrid::ForeignRing& StaggeredGrid::foreign_ring(LocalIndex point) const {
+  return *std::lower_bound(foreign_rings_.begin(), foreign_rings_.end(), point,
+                           [](const ForeignRing& at, LocalIndex wanted) { return at.point < wanted; });
+}
+
+std::vector<GlobalId> StaggeredGrid::ring_numbers(LocalIndex point) const {
+  std::vector<GlobalId> numbers;
+  if (point >= cells_.site_count)
+    for (const RingEdge& one : foreign_ring(point).edges)
+      numbers.push_back(one.edge);
+  else
+    for (std::size_t spoke = 0; spoke < spokes_of(point); ++spoke)
+      numbers.push_back(edge_of_spoke(point, spoke));
+  return numbers;
+}
+
 std::vector<RingEdge> StaggeredGrid::ring(LocalIndex point) const {
   if (point >= cells_.site_count)
-    return std::lower_bound(foreign_rings_.begin(), foreign_rings_.end(), point,
-                            [](const ForeignRing& at, LocalIndex wanted) { return at.point < wanted; })
-        ->edges;
+    return foreign_ring(point).edges;
   Surroundings around;
   look_around(cells_, point, around);
   const std::vector<double> kites = kites_around(around);
@@ -253,7 +290,7 @@ std::vector<RingEdge> StaggeredGrid::ring(LocalIndex point) const {
     area += kite;
   std::vector<RingEdge> edges;
   for (std::size_t spoke = 0; spoke < around.arms.size(); ++spoke)
-    edges.push_back({edge_at(point, around.ends[spoke]), face_of(around, spoke).dual_length(),
+    edges.push_back({edge_of_spoke(point, spoke), face_of(around, spoke).dual_length(),
                      around.left(spoke) ? kites[*around.left(spoke)] / area : 0, owns_edge(point, around.ends[spoke])});
   return edges;
 }

@@ -27,7 +27,7 @@ public:
   /// Numbers all parts of the grid. The numbers do not depend on the number of ranks.
   /// @param only_whole leaves out the cells on the boundary, and what no cell touches
   /// @pre cells outlive this object
-  /// @note Collective; a few sparse exchanges. Memory: 24 bytes per point.
+  /// @note Collective; a few sparse exchanges. Memory: 90 bytes per point.
   StaggeredGrid(const Cells& cells, bool only_whole, const comm::Communicator& comm);
 
   GlobalId cell_count() const { return totals_[cell]; }
@@ -37,12 +37,12 @@ public:
   std::int64_t most_edges() const { return most_edges_; }    ///< of a cell
   bool is_cell(LocalIndex point) const { return numbers_[at(point)] >= 0; }
 
-  /// Return the number of a point's cell (see Cells::points), of the edge between two points of which one is a site
-  /// with a cell, or both are corners of a triangle at such a site, and of a triangle at such a site; -1 if there is
-  /// none.
+  /// Return the number of a point's cell (see Cells::points), of the edge from corner k to the next corner of a
+  /// triangle (see Cells::triangles), of the edge along a spoke of a site, and of a triangle; -1 if there is none.
   GlobalId cell_at(LocalIndex point) const { return numbers_[at(point)]; }
-  GlobalId edge_at(LocalIndex a, LocalIndex b) const;
-  GlobalId vertex_at(LocalIndex triangle) const;
+  GlobalId edge_at(LocalIndex triangle, std::size_t k) const { return sides_[at(triangle)][k]; }
+  GlobalId edge_of_spoke(LocalIndex site, std::size_t spoke) const;
+  GlobalId vertex_at(LocalIndex triangle) const { return vertices_[at(triangle)]; }
 
   /// Return how many edges and vertices belong to a site.
   std::int64_t edges_of(LocalIndex site) const { return before_[edge][at(site) + 1] - before_[edge][at(site)]; }
@@ -54,6 +54,8 @@ public:
   /// Returns the edges around the cell of a site, or of a second cell of an edge that belongs to a site of this rank,
   /// counter-clockwise.
   std::vector<RingEdge> ring(LocalIndex point) const;
+  /// Returns only the numbers of these edges.
+  std::vector<GlobalId> ring_numbers(LocalIndex point) const;
 
 private:
   enum Kind : std::size_t { cell, edge, vertex };
@@ -73,17 +75,23 @@ private:
   std::size_t spokes_of(LocalIndex site) const;
   GlobalId own_edge(LocalIndex site, LocalIndex end) const;
   GlobalId own_vertex(LocalIndex site, GlobalId triangle) const;
+  GlobalId find_edge(LocalIndex a, LocalIndex b) const;
+  GlobalId find_vertex(LocalIndex triangle) const;
   static GlobalId number_in(const std::vector<Foreign>& table, GlobalId owner, GlobalId other);
 
   void number_cells(bool only_whole, const comm::Communicator& comm);
   void count_parts(const comm::Communicator& comm);
   void find_foreign();
   void fetch_numbers(std::vector<Foreign>& table, Kind kind, const comm::Communicator& comm);
+  void number_triangles();
+  const ForeignRing& foreign_ring(LocalIndex point) const;
   void fetch_rings(const comm::Communicator& comm);
 
   const Cells& cells_;
   std::vector<GlobalId> numbers_;                   // [points], of cells
   std::array<std::vector<std::int64_t>, 3> before_; // by kind: [sites + 1], counts on this rank; none for cells
+  std::vector<std::array<GlobalId, 3>> sides_;      // by triangle: edges from each corner to the next one
+  std::vector<GlobalId> vertices_;                  // by triangle
   std::array<GlobalId, 3> first_{}, totals_{};      // by kind: on the ranks before this one, on all
   GlobalId inner_edges_ = 0;
   std::int64_t most_edges_ = 0;

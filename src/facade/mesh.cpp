@@ -248,6 +248,30 @@ void make_directory_of(const fs::path& path, const comm::Communicator& comm) {
   });
 }
 
+/// Writes NAME.h5 with its views.
+void write_mesh_file(const fs::path& file, const Mesh::Implementation& made, const WriteOptions& options) {
+  const comm::Communicator& comm = *made.communicator;
+  const record::Origin& origin = made.origin;
+  io::MeshFileOptions target;
+  target.directory = file.has_parent_path() ? file.parent_path().string() : ".";
+  target.name = file.stem().string();
+  target.overwrite = options.overwrite;
+  target.vtkhdf = options.vtkhdf;
+  target.xdmf = options.xdmf;
+  target.is_final = true;
+  target.part_markers = origin.part_markers;
+  std::vector<std::string> paths;
+  for (const char* ending : io::mesh_file_endings)
+    paths.push_back(target.path(ending));
+  formats::refuse_to_replace(paths, options.overwrite, how_to_replace, comm);
+  for (const std::string& warning : formats::check_output(target, comm))
+    fmt::print(stderr, "warning: {}\n", warning);
+  std::vector<io::ExtraGroup> groups;
+  if (options.voronoi)
+    groups.push_back(formats::cell_arrays(made.result.mesh, origin.period, comm));
+  io::write_mesh_and(groups, target, made.result.mesh, made.metadata, comm);
+}
+
 } // namespace
 
 Mesh::Mesh(std::unique_ptr<Implementation> implementation) : implementation_(std::move(implementation)) {}
@@ -322,24 +346,7 @@ void Mesh::write(const std::string& path, const WriteOptions& options) const {
   const record::Origin& origin = implementation_->origin;
   const fs::path file(path);
   if (file.extension() == ".h5") {
-    io::MeshFileOptions target;
-    target.directory = file.has_parent_path() ? file.parent_path().string() : ".";
-    target.name = file.stem().string();
-    target.overwrite = options.overwrite;
-    target.vtkhdf = options.vtkhdf;
-    target.xdmf = options.xdmf;
-    target.is_final = true;
-    target.part_markers = origin.part_markers;
-    std::vector<std::string> paths;
-    for (const char* ending : io::mesh_file_endings)
-      paths.push_back(target.path(ending));
-    formats::refuse_to_replace(paths, options.overwrite, how_to_replace, comm);
-    for (const std::string& warning : formats::check_output(target, comm))
-      fmt::print(stderr, "warning: {}\n", warning);
-    std::vector<io::ExtraGroup> groups;
-    if (options.voronoi)
-      groups.push_back(formats::cell_arrays(result().mesh, origin.period, comm));
-    io::write_mesh_and(groups, target, result().mesh, implementation_->metadata, comm);
+    write_mesh_file(file, *implementation_, options);
     return;
   }
   const auto format = formats::format_of_path(path);

@@ -194,9 +194,8 @@ void add_all_places(MpasFile& file) {
 void add_numbers(MpasFile& file) {
   file.add("indexToCellID", Place::cell, file.id_type(), {},
            [](const Target& to, std::size_t) { to.id(to.grid.staggered.cell_at(to.site)); });
-  file.add("indexToEdgeID", Place::edge, file.id_type(), {}, [](const Target& to, std::size_t spoke) {
-    to.id(to.grid.staggered.edge_at(to.site, to.around.ends[spoke]));
-  });
+  file.add("indexToEdgeID", Place::edge, file.id_type(), {},
+           [](const Target& to, std::size_t spoke) { to.id(to.grid.staggered.edge_of_spoke(to.site, spoke)); });
   file.add("indexToVertexID", Place::vertex, file.id_type(), {},
            [](const Target& to, std::size_t k) { to.id(to.grid.staggered.vertex_at(to.around.triangles[k])); });
 }
@@ -214,9 +213,8 @@ void add_around_cells(MpasFile& file, const std::string& name, const Value& valu
 void add_cell_lists(MpasFile& file) {
   file.add("nEdgesOnCell", Place::cell, NetcdfType::int32, {},
            [](const Target& to, std::size_t) { to.integer(std::ssize(to.around.arms)); });
-  add_around_cells(file, "edgesOnCell", [](const Target& to, std::size_t spoke) {
-    return to.grid.staggered.edge_at(to.site, to.around.ends[spoke]);
-  });
+  add_around_cells(file, "edgesOnCell",
+                   [](const Target& to, std::size_t spoke) { return to.grid.staggered.edge_of_spoke(to.site, spoke); });
   add_around_cells(file, "cellsOnCell", [](const Target& to, std::size_t spoke) {
     return to.grid.staggered.cell_at(to.around.ends[spoke]);
   });
@@ -249,57 +247,70 @@ void add_vertex_lists(MpasFile& file) {
       to.id(to.grid.staggered.cell_at(corner));
   });
   file.add("edgesOnVertex", Place::vertex, file.id_type(), {file.degree()}, [](const Target& to, std::size_t k) {
-    const auto& corners = triangle_of(to, k).corners;
     for (std::size_t j = 0; j < 3; ++j)
-      to.id(to.grid.staggered.edge_at(corners[(j + 2) % 3], corners[j]));
+      to.id(to.grid.staggered.edge_at(to.around.triangles[k], (j + 2) % 3));
   });
 }
 
-/// The edges from which the tangential velocity at an edge is reconstructed, and their weights: around the first cell
-/// from the edge on, then around the second cell.
-struct EdgeWeights {
-  std::vector<GlobalId> edges;
-  std::vector<double> weights;
-};
-
-void add_weights(const std::vector<RingEdge>& ring, GlobalId edge, double sign_over_length, EdgeWeights& to) {
-  const std::size_t count = ring.size();
+/// Calls use(k, before) for the other edges of a ring, counter-clockwise from an edge on: the index of each in the
+/// ring, and that of the edge before it.
+template <class Numbers, class Use>
+void for_each_other(const Numbers& ring, GlobalId edge, const Use& use) {
   std::size_t here = 0;
-  while (ring[here].edge != edge)
+  while (ring[here] != edge)
     ++here;
-  double share = 0; // of the cell between the edge and the next one
-  for (std::size_t step = 1; step < count; ++step) {
-    const RingEdge& other = ring[(here + step) % count];
-    share += ring[(here + step - 1) % count].kite_share;
-    to.edges.push_back(other.edge);
-    to.weights.push_back((other.is_first ? 1 : -1) * sign_over_length * (0.5 - share) * other.dual_length);
-  }
+  for (std::size_t step = 1; step < ring.size(); ++step)
+    use((here + step) % ring.size(), (here + step - 1) % ring.size());
 }
 
-EdgeWeights weights_of(const Target& to, std::size_t spoke) {
-  const dual::StaggeredGrid& grid = to.grid.staggered;
+/// The cells of an edge: that of the site, and that of the other end if it has one.
+std::vector<LocalIndex> cells_of_edge(const Target& to, std::size_t spoke) {
   const LocalIndex end = to.around.ends[spoke];
-  const GlobalId edge = grid.edge_at(to.site, end);
-  const double over_length = 1 / length(to.around.arms[spoke]);
-  EdgeWeights made;
-  add_weights(grid.ring(to.site), edge, over_length, made);
-  if (grid.is_cell(end))
-    add_weights(grid.ring(end), edge, -over_length, made);
-  return made;
+  return to.grid.staggered.is_cell(end) ? std::vector{to.site, end} : std::vector{to.site};
+}
+
+/// The edges from which the tangential velocity at an edge is reconstructed: around the first cell from the edge on,
+/// then around the second cell.
+std::vector<GlobalId> edges_on_edge(const Target& to, std::size_t spoke) {
+  const dual::StaggeredGrid& grid = to.grid.staggered;
+  std::vector<GlobalId> edges;
+  for (const LocalIndex cell : cells_of_edge(to, spoke)) {
+    const std::vector<GlobalId> ring = grid.ring_numbers(cell);
+    for_each_other(ring, grid.edge_of_spoke(to.site, spoke),
+                   [&](std::size_t k, std::size_t) { edges.push_back(ring[k]); });
+  }
+  return edges;
+}
+
+/// The weights of these edges.
+std::vector<double> weights_of(const Target& to, std::size_t spoke) {
+  const dual::StaggeredGrid& grid = to.grid.staggered;
+  double sign_over_length = 1 / length(to.around.arms[spoke]);
+  std::vector<double> weights;
+  for (const LocalIndex cell : cells_of_edge(to, spoke)) {
+    const std::vector<RingEdge> ring = grid.ring(cell);
+    double share = 0; // of the cell between the edge and the next one
+    for_each_other(grid.ring_numbers(cell), grid.edge_of_spoke(to.site, spoke), [&](std::size_t k, std::size_t before) {
+      share += ring[before].kite_share;
+      weights.push_back((ring[k].is_first ? 1 : -1) * sign_over_length * (0.5 - share) * ring[k].dual_length);
+    });
+    sign_over_length = -sign_over_length;
+  }
+  return weights;
 }
 
 void add_reconstruction(MpasFile& file) {
   file.add("nEdgesOnEdge", Place::edge, NetcdfType::int32, {},
-           [](const Target& to, std::size_t spoke) { to.integer(std::ssize(weights_of(to, spoke).edges)); });
+           [](const Target& to, std::size_t spoke) { to.integer(std::ssize(edges_on_edge(to, spoke))); });
   file.add("edgesOnEdge", Place::edge, file.id_type(), {file.twice_most()}, [](const Target& to, std::size_t spoke) {
-    std::vector<GlobalId> edges = weights_of(to, spoke).edges;
+    std::vector<GlobalId> edges = edges_on_edge(to, spoke);
     edges.resize(2 * static_cast<std::size_t>(to.grid.staggered.most_edges()), -1);
     for (const GlobalId edge : edges)
       to.id(edge);
   });
   file.add("weightsOnEdge", Place::edge, NetcdfType::float64, {file.twice_most()},
            [](const Target& to, std::size_t spoke) {
-             std::vector<double> weights = weights_of(to, spoke).weights;
+             std::vector<double> weights = weights_of(to, spoke);
              weights.resize(2 * static_cast<std::size_t>(to.grid.staggered.most_edges()), 0);
              for (const double weight : weights)
                to.real(weight);
