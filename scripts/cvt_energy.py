@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Prints the energy of the Voronoi cells after each sweep, for each method, beside that of the hexagonal lattice.
+"""Prints the energy of the Voronoi cells after each sweep, for each method, and that of the hexagonal lattice.
 
 The energy is that of centroidal Voronoi tessellations (Du, Faber, Gunzburger, SIAM Review 41, 1999): the sum over all
 cells of the integral of |x - site|^2. It is divided by (area of all cells)^2 / (number of cells). Then the regular

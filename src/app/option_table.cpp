@@ -548,9 +548,10 @@ const Option table[] = {
      .kind = OptionKind::word,
      .fallback = "voronoi",
      .choices = "voronoi whole triangles",
-     .meaning = "cells in files of `mpas`, `disv`, `uge` and `tough`; voronoi: the Voronoi cells of all points, which "
-                "the boundary cuts; whole, for `mpas`: those of the points inside, which no boundary cuts; triangles, "
-                "for the other three: the triangles, with their circumcentres as centres"},
+     .meaning =
+         "cells in files of `mpas`, `disv`, `uge` and `tough`. `voronoi`: the Voronoi cells of all points, which "
+         "the boundary cuts. `whole`, for `mpas`: those of the points inside, which no boundary cuts. "
+         "`triangles`, for the other three: the triangles, with their circumcentres as centres"},
     {.section = "output",
      .key = "depth",
      .kind = OptionKind::text,

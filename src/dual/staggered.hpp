@@ -13,7 +13,7 @@
 
 namespace trime::dual {
 
-/// What a cell knows of the edge along one of its spokes, for sums around the cell.
+/// Holds what a cell knows of the edge along one of its spokes, for sums around the cell.
 struct RingEdge {
   GlobalId edge;
   double dual_length;
@@ -34,11 +34,12 @@ public:
   GlobalId edge_count() const { return totals_[edge]; }
   GlobalId vertex_count() const { return totals_[vertex]; }
   GlobalId inner_edge_count() const { return inner_edges_; } ///< edges between two cells
-  std::int64_t most_edges() const { return most_edges_; }    ///< of a cell
+  std::int64_t most_edges() const { return most_edges_; }    ///< largest number of edges of a cell
   bool is_cell(LocalIndex point) const { return numbers_[at(point)] >= 0; }
 
-  /// Return the number of a point's cell (see Cells::points), of the edge from corner k to the next corner of a
-  /// triangle (see Cells::triangles), of the edge along a spoke of a site, and of a triangle; -1 if there is none.
+  /// Return the numbers of the cell of a point (see Cells::points), of the edge from corner k to the next corner of a
+  /// triangle (see Cells::triangles), of the edge along a spoke, and of a triangle. They are -1 if the grid has no such
+  /// thing.
   GlobalId cell_at(LocalIndex point) const { return numbers_[at(point)]; }
   GlobalId edge_at(LocalIndex triangle, std::size_t k) const { return sides_[at(triangle)][k]; }
   GlobalId edge_of_spoke(LocalIndex site, std::size_t spoke) const;

@@ -17,14 +17,14 @@ struct FlowCell {
   GlobalId number;
   geometry::Vec2 centre;
   double area;
-  std::int32_t region; ///< of a Voronoi cell in several regions: that of the largest share
+  std::int32_t region; ///< a Voronoi cell in several regions has that of its largest share
 };
 
 /// A face between two cells, or half of a boundary edge or a whole one, which has one cell.
 struct FlowFace {
   std::array<GlobalId, 2> cells;   ///< numbers; the second one of a boundary edge is -1
   geometry::Vec2 place;            ///< where the line between the centres crosses the face
-  double length;                   ///< of the face
+  double length;                   ///< length of the face
   std::array<double, 2> distances; ///< from each centre to the face; negative if an obtuse triangle lies behind it
 };
 
@@ -67,11 +67,11 @@ public:
   FilePlan proved(FilePlan plan) const;
 
 private:
-  /// What must be known of triangles as cells.
+  /// Holds what must be known of triangles as cells.
   struct TriangleFacts {
     std::int64_t obtuse = 0;
     double area = 0;
-    double least_cosine = 1;       ///< of all angles
+    double least_cosine = 1;       ///< least cosine of an angle
     geometry::Vec2 worst{0, 0};    ///< circumcentre of the triangle with the largest angle
     double nearest_centres = 0;    ///< distance of centres over the length of their face
     std::int64_t same_centres = 0; ///< faces whose centres are nearer than a billionth of their length

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Voronoi cells or triangles as a file MESH of TOUGH2 and TOUGH3 (TOUGH3 user's guide, blocks ELEME and CONNE): one
-// layer of thickness 1. A line has columns of fixed width: an element has a name of five characters, the material, the
-// volume and the centre; a connection has the names of both elements, the direction, the distances of both centres from
-// the face, and the area of the face.
+// layer of thickness 1. A line has columns of fixed width. That of an element has a name of five characters, the
+// material, the volume and the centre. That of a connection has the names of both elements, the direction, the
+// distances of both centres from the face, and the area of the face.
 #include "formats/flow_cells.hpp"
 #include "formats/solver_names.hpp"
 #include "trime/core/error.hpp"
@@ -47,11 +47,11 @@ private:
 /// Appends a number in ten columns with as many digits as fit. It has a decimal point, since Fortran would put one into
 /// numbers without.
 void append_fixed(double number, std::string& to) {
-  std::string text;
-  for (int digits = 10; digits > 0; --digits) {
+  auto digits = static_cast<int>(number_width) - 1;
+  std::string text = fmt::format("{:#.{}g}", number, digits);
+  while (text.size() > number_width && digits > 1) {
+    digits = std::max(1, digits - static_cast<int>(text.size() - number_width));
     text = fmt::format("{:#.{}g}", number, digits);
-    if (text.size() <= number_width)
-      break;
   }
   to.append(number_width - std::min(number_width, text.size()), ' ');
   to += text;

@@ -2,8 +2,8 @@
 // Voronoi cells or triangles as an explicit unstructured grid of PFLOTRAN (user's guide, "GRID,
 // UNSTRUCTURED_EXPLICIT"): one layer of thickness 1. The file lists the cells with their volumes, and the connections
 // between them with the place where the line between both centres crosses the face, and the area of the face. Each part
-// of the boundary has a file with its connections: one for each boundary edge of a triangle; two for each boundary edge
-// of Voronoi cells, one for the cell at each end, in the middle of its half of the edge.
+// of the boundary has a file with its connections. A boundary edge has one for its triangle, or two for Voronoi cells:
+// one for the cell at each end, in the middle of its half of the edge.
 #include "comm/outbox.hpp"
 #include "formats/flow_cells.hpp"
 #include "formats/rows_by_number.hpp"

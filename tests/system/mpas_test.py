@@ -22,7 +22,7 @@ PLACES = ("Cell", "Edge", "Vertex")
 
 
 class MpasFile:
-    """All arrays of a file; numbers count from 0 here, and -1 is none."""
+    """All arrays of a file; numbers count from 0 here; -1 means that something is missing."""
 
     def __init__(self, path):
         with netCDF4.Dataset(path) as file:

@@ -54,8 +54,8 @@ enum class Format {
 
 /// The cells in files of mpas, disv, uge and tough.
 enum class CellKind {
-  voronoi,  ///< of all points; on the boundary the boundary edges cut them
-  whole,    ///< of the points inside; for mpas
+  voronoi,  ///< cells of all points; the boundary edges cut those on the boundary
+  whole,    ///< cells of the points inside; for mpas
   triangles ///< the triangles, with their circumcentres as centres; for disv, uge and tough
 };
 
