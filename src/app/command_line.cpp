@@ -17,7 +17,7 @@ namespace {
 struct Flags {
   bool help_config = false, version = false, validate = false, dry_run = false, print_config = false, quiet = false,
        verbose = false, overwrite = false, degrees = false, all = false;
-  std::optional<std::string> threads, level, time_limit;
+  std::optional<std::string> threads, level, time_limit, cells;
 };
 
 void declare(CLI::App& app, CommandLine& line, Flags& flags) {
@@ -35,6 +35,9 @@ void declare(CLI::App& app, CommandLine& line, Flags& flags) {
   app.add_flag("--print-config", flags.print_config, "print the config with all defaults, as a complete file");
   app.add_flag("--overwrite", flags.overwrite, "with convert and refine: replace the file OUT if it exists");
   app.add_flag("--degrees", flags.degrees, "with convert: write longitude and latitude into .14, .gr3 and .2dm");
+  app.add_option("--cells", flags.cells,
+                 "with convert: voronoi, whole or triangles, the cells in _mpas.nc, .disv, .uge and .tough")
+      ->check(CLI::IsMember({"voronoi", "whole", "triangles"}));
   app.add_flag("--all", flags.all, "with info: print whole lists of names, however long");
   app.add_option("--report", line.report, "write the report of the run to this file, as JSON");
   app.add_option("--record", line.report)->group(""); // its name in earlier versions; not in the help
@@ -69,7 +72,7 @@ Action action_of(const CommandLine& line, const Flags& flags) {
 
 /// The words behind the program name for which files follow.
 const char* usage_of(Action action) {
-  return action == Action::convert  ? "convert IN.h5 OUT.ENDING [--overwrite] [--degrees]"
+  return action == Action::convert  ? "convert IN.h5 OUT.ENDING [--overwrite] [--degrees] [--cells KIND]"
          : action == Action::refine ? "refine IN.h5 OUT.h5 [--overwrite]"
                                     : "info FILE.h5 [--all]";
 }
@@ -84,6 +87,10 @@ void take_files(CommandLine& line, const Flags& flags) {
   line.in_degrees = flags.degrees;
   if (flags.degrees && !converts)
     throw ConfigError("'--degrees' belongs to 'trime_mpi convert'; for a run, set output.coordinates=degrees");
+  if (flags.cells && !converts)
+    throw ConfigError("'--cells' belongs to 'trime_mpi convert'; for a run, set output.cells");
+  if (flags.cells)
+    line.cells = *flags.cells;
   line.prints_all = flags.all;
   if (flags.all && line.action != Action::info)
     throw ConfigError("'--all' belongs to 'trime_mpi info', which prints whole lists with it");

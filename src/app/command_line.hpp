@@ -16,6 +16,7 @@ struct CommandLine {
   std::vector<std::string> overrides; ///< section.key=value, including those that follow from options such as --points
   std::vector<std::string> files;     ///< paths given to `convert`, `info` and `refine`
   bool overwrite = false;             ///< for `convert` and `refine`: an existing file may be replaced
+  std::string cells = "voronoi";      ///< for `convert`: word of output.cells
   bool in_degrees = false;            ///< for `convert`: longitude and latitude in fort14 and 2dm
   bool prints_all = false;            ///< for `info`: whole lists, however long
   std::string report;                 ///< path of the JSON file for the numbers of the run; empty: no such file

@@ -391,6 +391,10 @@ void read_output(const Settings& settings, RunOptions& options, Diagnostics& pro
                              settings.text("output", "formats"),
                              formats::words_of(&formats::FormatInfo::holds_periodic, "and")));
   options.output.names.open_boundary = read_open_boundary(settings.text("output", "open_boundary"));
+  options.output.names.cells = formats::cell_kind_of_word(settings.text("output", "cells"));
+  for (const formats::Format format : formats)
+    if (const std::string problem = formats::cells_problem(format, options.output.names.cells); !problem.empty())
+      problems.add(settings.line("output", "cells"), "'cells' in [output]: " + problem);
   options.output.names.in_degrees = settings.text("output", "coordinates") == "degrees";
   options.courant.time_step = settings.optional_number("output", "time_step").value_or(0);
   options.courant.limit = settings.number("output", "courant");

@@ -237,6 +237,7 @@ ExitCode convert(const CommandLine& line, io::RunFiles* files, const comm::Commu
   formats::Names names = names_of(metadata);
   refuse(names);
   names.in_degrees = line.in_degrees;
+  names.cells = formats::cell_kind_of_word(line.cells);
   const mesh::DistributedMesh mesh = io::read_mesh(from, metadata, comm);
   if (is_marked(metadata))
     log.warning("{} holds a mesh that is NOT complete, see 'trime_mpi info {}'", from, from);
@@ -252,6 +253,8 @@ void print_cells(const formats::Exported& made, Log& log) {
   if (made.checks.empty())
     return;
   log.summary("{}", made.summary);
+  if (!made.warning.empty())
+    log.warning("{}", made.warning);
   for (const mesh::Check& check : made.checks)
     if (!check.passed)
       log.warning("the Voronoi cells are NOT right: check {} FAILED: expected {:.15g}, found {:.15g} ({})", check.name,

@@ -544,6 +544,15 @@ const Option table[] = {
                 "latitude, "
                 "for meshes of contours that have a projection"},
     {.section = "output",
+     .key = "cells",
+     .kind = OptionKind::word,
+     .fallback = "voronoi",
+     .choices = "voronoi whole triangles",
+     .meaning =
+         "cells in files of `mpas`, `disv`, `uge` and `tough`. `voronoi`: the Voronoi cells of all points, which "
+         "the boundary cuts. `whole`, for `mpas`: those of the points inside, which no boundary cuts. "
+         "`triangles`, for the other three: the triangles, with their circumcentres as centres"},
+    {.section = "output",
      .key = "depth",
      .kind = OptionKind::text,
      .fallback = "none",

@@ -6,7 +6,9 @@
 #include "app/stored_shape.hpp"
 #include "comm/agree.hpp"
 #include "core/quoted.hpp"
+#include "formats/cell_arrays.hpp"
 #include "formats/output_files.hpp"
+#include "io/extra_arrays.hpp"
 #include "record/groups.hpp"
 #include "trime/core/timer.hpp"
 #include "trime/refinement/refine.hpp"
@@ -123,6 +125,20 @@ void warn(const StoredShape& shape, const refinement::BoundaryMiddles& middles, 
                 middles.refused, all);
 }
 
+/// Returns the Voronoi cells if the config asks for them and if they are right; if they are not, a warning says so.
+std::vector<io::ExtraGroup> cells_of(const mesh::DistributedMesh& mesh, const Metadata& metadata,
+                                     const comm::Communicator& comm, Log& log) {
+  const geometry::Vec2 period{io::attribute_of<double>(metadata, "period_x"),
+                              io::attribute_of<double>(metadata, "period_y")};
+  const std::size_t regions = io::column_of<std::string>(metadata, "tags", "region_name").size();
+  if (mesh::all_passed(formats::cell_checks(mesh, period, regions, comm)))
+    return {formats::cell_arrays(mesh, period, comm)};
+  log.warning(
+      "the refined mesh has triangles whose circumcentres lie behind the boundary or whose circles hold points, "
+      "so its file gets no Voronoi cells; make a mesh with more points instead");
+  return {};
+}
+
 } // namespace
 
 ExitCode refine(const CommandLine& line, io::RunFiles* files, const comm::Communicator& comm, Log& log) {
@@ -153,7 +169,9 @@ ExitCode refine(const CommandLine& line, io::RunFiles* files, const comm::Commun
   options.run_files = files;
   options.part_markers = io::column_of<std::int32_t>(metadata, "tags", "part_marker");
   const Metadata described = refined_metadata(metadata, refined, line, wall_seconds() - start, comm);
-  const io::WrittenFiles written = io::write_mesh(options, refined.mesh, described, comm);
+  const std::vector<io::ExtraGroup> groups =
+      shape.cells ? cells_of(refined.mesh, metadata, comm, log) : std::vector<io::ExtraGroup>{};
+  const io::WrittenFiles written = io::write_mesh_and(groups, options, refined.mesh, described, comm);
   log.info("{}: {} points, {} triangles, {} boundary edges; mesh hash {:016x}", to, refined.mesh.point_slab.total,
            refined.mesh.triangle_slab.total, refined.mesh.facet_slab.total, refined.mesh.hash);
   const bool is_complete = comm.broadcast(std::string{says_complete(described) ? '1' : '0'}) == "1";

@@ -65,6 +65,7 @@ StoredShape stored_shape(const io::Metadata& metadata, const std::string& path, 
     const RunOptions options = parse_config(config->text, path + ": config", {});
     stored.vtkhdf = options.output.file.vtkhdf;
     stored.xdmf = options.output.file.xdmf;
+    stored.cells = options.output.wants(formats::Format::voronoi);
     Log quiet(LogLevel::error, comm.is_root());
     UserPlaces places;
     stored.input = read_shape(options, ShapeUse::boundary, comm, quiet, places);

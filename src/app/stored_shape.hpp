@@ -18,6 +18,7 @@ struct StoredShape {
       simplified{}; ///< the curves that the mesh follows, if they are not those of the shape
   std::string reason{};
   bool vtkhdf = true, xdmf = true; ///< the views that the config asks for
+  bool cells = false;              ///< the config asks for Voronoi cells in the mesh file
 
   /// Returns the curves that the mesh follows, or null.
   const geometry::Boundary* curves() const { return simplified ? &*simplified : input ? &input->boundary() : nullptr; }

@@ -180,13 +180,18 @@ Cells make_cells(const mesh::DistributedMesh& mesh, Vec2 period, const comm::Com
   return cells;
 }
 
-Vec2 slab_centre(const mesh::DistributedMesh& mesh, const Cells& cells, std::size_t triangle) {
+SlabTriangle slab_triangle(const mesh::DistributedMesh& mesh, const Cells& cells, std::size_t triangle) {
   const auto place = [&](std::size_t k) {
     const auto corner = at(mesh.triangles[triangle][k]);
     return corner < mesh.points.size() ? mesh.points[corner] : cells.slab_places[corner - mesh.points.size()];
   };
   const Vec2 first = place(0);
-  return first + circumcentre(difference(place(1), first, cells.period), difference(place(2), first, cells.period));
+  return {first, difference(place(1), first, cells.period), difference(place(2), first, cells.period)};
+}
+
+Vec2 slab_centre(const mesh::DistributedMesh& mesh, const Cells& cells, std::size_t triangle) {
+  const SlabTriangle of = slab_triangle(mesh, cells, triangle);
+  return of.first + circumcentre(of.b, of.c);
 }
 
 } // namespace trime::dual

@@ -84,6 +84,12 @@ Cells make_cells(const mesh::DistributedMesh& mesh, geometry::Vec2 period, const
 /// @note Collective.
 void find_fans(Cells& cells, const comm::Communicator& comm);
 
+/// A triangle of this rank's slab of the mesh: its first corner, and the vectors from there to the others.
+struct SlabTriangle {
+  geometry::Vec2 first, b, c;
+};
+SlabTriangle slab_triangle(const mesh::DistributedMesh& mesh, const Cells& cells, std::size_t triangle);
+
 /// Returns the circumcentre of a triangle of this rank's slab of the mesh.
 geometry::Vec2 slab_centre(const mesh::DistributedMesh& mesh, const Cells& cells, std::size_t triangle);
 

@@ -117,6 +117,22 @@ double half_dual_length(const Surroundings& around, std::size_t spoke, std::size
   return 0.5 * length(around.arms[spoke]) * dot(to_site, to_end) / std::fabs(cross(to_site, to_end));
 }
 
+std::array<double, 3> kites_of(Vec2 b, Vec2 c) {
+  const Vec2 side = c - b;
+  // An eighth of the squared length of each side times the cotangent of the angle opposite to it.
+  const double scale = 0.125 / cross(b, c);
+  const double at_b = scale * squared_length(c) * -dot(b, side), at_c = scale * squared_length(b) * dot(c, side),
+               at_0 = scale * squared_length(side) * dot(b, c);
+  return {at_b + at_c, at_0 + at_c, at_0 + at_b};
+}
+
+std::vector<double> kites_around(const Surroundings& around) {
+  std::vector<double> kites;
+  for (std::size_t k = 0; k < around.triangles.size(); ++k)
+    kites.push_back(kites_of(around.arms[k], around.arms[around.spoke_behind(k, 1)])[0]);
+  return kites;
+}
+
 CellFace face_of(const Surroundings& around, std::size_t spoke) {
   CellFace face;
   face.length = length(around.arms[spoke]);

@@ -78,6 +78,13 @@ Moments moments_of(std::span<const geometry::Vec2> corners);
 /// opposite to it.
 double half_dual_length(const Surroundings& around, std::size_t spoke, std::size_t triangle);
 
+/// @brief Returns the kites of the triangle (0, b, c), which is counter-clockwise: the signed areas between each
+/// corner, the middles of the two sides at the corner, and the circumcentre. The kites of a triangle add up to its
+/// area, and those around a site to the area of its cell.
+std::array<double, 3> kites_of(geometry::Vec2 b, geometry::Vec2 c);
+/// Returns the kite at a site in each triangle around it.
+std::vector<double> kites_around(const Surroundings& around);
+
 /// An edge of the mesh as a face between two cells.
 struct CellFace {
   double length = 0;                     ///< from site to site

@@ -6,7 +6,9 @@
 #include "facade/build_shape.hpp"
 #include "facade/check_options.hpp"
 #include "facade/names.hpp"
+#include "formats/cell_arrays.hpp"
 #include "formats/output_files.hpp"
+#include "io/extra_arrays.hpp"
 #include "record/groups.hpp"
 #include "sizing/rules.hpp"
 #include "trime/comm/from_mpi.hpp"
@@ -246,6 +248,30 @@ void make_directory_of(const fs::path& path, const comm::Communicator& comm) {
   });
 }
 
+/// Writes NAME.h5 with its views.
+void write_mesh_file(const fs::path& file, const Mesh::Implementation& made, const WriteOptions& options) {
+  const comm::Communicator& comm = *made.communicator;
+  const record::Origin& origin = made.origin;
+  io::MeshFileOptions target;
+  target.directory = file.has_parent_path() ? file.parent_path().string() : ".";
+  target.name = file.stem().string();
+  target.overwrite = options.overwrite;
+  target.vtkhdf = options.vtkhdf;
+  target.xdmf = options.xdmf;
+  target.is_final = true;
+  target.part_markers = origin.part_markers;
+  std::vector<std::string> paths;
+  for (const char* ending : io::mesh_file_endings)
+    paths.push_back(target.path(ending));
+  formats::refuse_to_replace(paths, options.overwrite, how_to_replace, comm);
+  for (const std::string& warning : formats::check_output(target, comm))
+    fmt::print(stderr, "warning: {}\n", warning);
+  std::vector<io::ExtraGroup> groups;
+  if (options.voronoi)
+    groups.push_back(formats::cell_arrays(made.result.mesh, origin.period, comm));
+  io::write_mesh_and(groups, target, made.result.mesh, made.metadata, comm);
+}
+
 } // namespace
 
 Mesh::Mesh(std::unique_ptr<Implementation> implementation) : implementation_(std::move(implementation)) {}
@@ -320,21 +346,7 @@ void Mesh::write(const std::string& path, const WriteOptions& options) const {
   const record::Origin& origin = implementation_->origin;
   const fs::path file(path);
   if (file.extension() == ".h5") {
-    io::MeshFileOptions target;
-    target.directory = file.has_parent_path() ? file.parent_path().string() : ".";
-    target.name = file.stem().string();
-    target.overwrite = options.overwrite;
-    target.vtkhdf = options.vtkhdf;
-    target.xdmf = options.xdmf;
-    target.is_final = true;
-    target.part_markers = origin.part_markers;
-    std::vector<std::string> paths;
-    for (const char* ending : io::mesh_file_endings)
-      paths.push_back(target.path(ending));
-    formats::refuse_to_replace(paths, options.overwrite, how_to_replace, comm);
-    for (const std::string& warning : formats::check_output(target, comm))
-      fmt::print(stderr, "warning: {}\n", warning);
-    io::write_mesh(target, result().mesh, implementation_->metadata, comm);
+    write_mesh_file(file, *implementation_, options);
     return;
   }
   const auto format = formats::format_of_path(path);
@@ -342,10 +354,13 @@ void Mesh::write(const std::string& path, const WriteOptions& options) const {
     throw ConfigError(fmt::format("{}: expected a path that ends in .h5, or in the ending of another format, such as "
                                   ".msh, .vtu or .geojson",
                                   path));
-  const formats::Names names = names_of(origin);
+  formats::Names names = names_of(origin);
+  names.cells = options.cells;
   formats::refuse_to_replace(formats::paths_of(*format, path, names), options.overwrite, how_to_replace, comm);
   make_directory_of(file, comm);
   const formats::Exported made = formats::write(*format, path, result().mesh, names, nullptr, comm);
+  if (!made.warning.empty() && comm.is_root())
+    fmt::print(stderr, "warning: {}: {}\n", path, made.warning);
   for (const mesh::Check& check : made.checks)
     if (!check.passed && comm.is_root())
       fmt::print(stderr, "warning: {}: check {} FAILED: expected {:.15g}, found {:.15g} ({})\n", path, check.name,

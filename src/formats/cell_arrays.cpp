@@ -2,6 +2,7 @@
 #include "formats/cell_arrays.hpp"
 
 #include "comm/agree.hpp"
+#include "dual/proof.hpp"
 #include "dual/vertices.hpp"
 
 #include <algorithm>
@@ -244,6 +245,12 @@ io::ExtraGroup cell_arrays(const mesh::DistributedMesh& mesh, Vec2 period, const
   add_values(counted, group);
   add_faces(counted, group);
   return group;
+}
+
+mesh::Checks cell_checks(const mesh::DistributedMesh& mesh, Vec2 period, std::size_t regions,
+                         const comm::Communicator& comm) {
+  const dual::Cells cells = dual::make_cells(mesh, period, comm);
+  return dual::prove(mesh, cells, regions, comm).checks;
 }
 
 } // namespace trime::formats

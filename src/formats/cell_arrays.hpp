@@ -6,6 +6,9 @@
 #include "trime/comm/communicator.hpp"
 #include "trime/geometry/vec2.hpp"
 #include "trime/mesh/distributed_mesh.hpp"
+#include "trime/mesh/quality.hpp"
+
+#include <cstddef>
 
 namespace trime::formats {
 
@@ -16,5 +19,11 @@ namespace trime::formats {
 /// @throws FileError on all ranks if the triangles around a point are not one fan
 /// @note Collective.
 io::ExtraGroup cell_arrays(const mesh::DistributedMesh& mesh, geometry::Vec2 period, const comm::Communicator& comm);
+
+/// @brief Returns the checks of the cells, see dual::prove. The cells of a refined mesh need not pass.
+/// @param regions number of regions
+/// @note Collective.
+mesh::Checks cell_checks(const mesh::DistributedMesh& mesh, geometry::Vec2 period, std::size_t regions,
+                         const comm::Communicator& comm);
 
 } // namespace trime::formats

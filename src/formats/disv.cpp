@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The Voronoi cells as a grid of MODFLOW 6 ("Discretization by Vertices", DISV, in Langevin et al. 2017, USGS
+// Voronoi cells or triangles as a grid of MODFLOW 6 ("Discretization by Vertices", DISV, in Langevin et al. 2017, USGS
 // Techniques and Methods 6-A55): one layer from 0 to 1 with clockwise cells. The site is the centre of a cell, since
 // faces are perpendicular to the lines between sites. Vertices at one place are merged. A second file has the number of
 // the region of each cell.
 #include "dual/merged.hpp"
-#include "formats/cell_mesh.hpp"
+#include "formats/flow_cells.hpp"
 #include "formats/solver_names.hpp"
 #include "trime/core/error.hpp"
 
@@ -41,27 +41,50 @@ void append_cell(const DisvCells& cells, LocalIndex site, const Surroundings& ar
   to.back() = '\n';
 }
 
-std::string head_of(const CellMesh& cells) {
-  const ExchangeMesh& mesh = cells.mesh();
-  std::string text = "# Voronoi cells by trime_mpi\n";
+std::string head_of(const ExchangeMesh& mesh, const char* what, GlobalId cells, GlobalId vertices) {
+  std::string text = fmt::format("# {} by trime_mpi\n", what);
   for (std::size_t k = 0; k < mesh.names().regions.size(); ++k)
     text += fmt::format("# zone {} is region {}\n", k + 1, in_comment(mesh.names().regions[k]));
   return text + fmt::format("BEGIN OPTIONS\nEND OPTIONS\n\nBEGIN DIMENSIONS\n  NLAY 1\n  NCPL {}\n  NVERT {}\n"
                             "END DIMENSIONS\n\nBEGIN GRIDDATA\n  TOP\n    CONSTANT 1.0\n  BOTM LAYERED\n    CONSTANT "
                             "0.0\nEND GRIDDATA\n\nBEGIN VERTICES\n",
-                            mesh.points(), cells.vertices().whole_count());
+                            cells, vertices);
 }
 
-} // namespace
+/// Triangles with their circumcentres as centres; the vertices are the points.
+std::vector<FilePlan> plan_disv_triangles(const ExchangeMesh& mesh, const std::string& path) {
+  const FlowCells cells(mesh);
+  const auto all = cells.mesh();
+  const std::vector<io::TextRows> rows{
+      mesh.once(head_of(mesh, "Triangles", mesh.triangles(), mesh.points())),
+      mesh.point_rows([](std::int64_t, GlobalId number, geometry::Vec2 place, std::string& to) {
+        to += "  ";
+        append_line(to, number + 1, place.x, place.y);
+      }),
+      mesh.once("END VERTICES\n\nBEGIN CELL2D\n"),
+      mesh.triangle_rows(
+          [all](std::int64_t row, GlobalId number, const std::array<GlobalId, 3>& corners, std::string& to) {
+            const geometry::Vec2 centre =
+                dual::slab_centre(all->mesh().mesh(), all->cells(), static_cast<std::size_t>(row));
+            to += "  ";
+            append_line(to, number + 1, centre.x, centre.y, std::int64_t{3}, corners[2] + 1, corners[1] + 1,
+                        corners[0] + 1);
+          }),
+      mesh.once("END CELL2D\n")};
+  const auto zones =
+      cells.cell_rows([](const FlowCell& cell, std::string& to) { append_line(to, std::int64_t{cell.region}); });
+  return {cells.proved({path, rows}), {paths_of(Format::disv, path, mesh.names())[1], {zones}}};
+}
 
-std::vector<FilePlan> plan_disv(const ExchangeMesh& mesh, const std::string& path) {
+std::vector<FilePlan> plan_disv_voronoi(const ExchangeMesh& mesh, const std::string& path) {
   const auto cells = std::make_shared<const CellMesh>(mesh);
   if (cells->facts().most_corners > most_disv_vertices) // all ranks find the same
     throw FileError(fmt::format("a Voronoi cell has {} vertices; expected at most {}, as MODFLOW 6 allows; make the "
                                 "triangles more equal, for example with a smaller gradation of the size",
                                 cells->facts().most_corners, most_disv_vertices));
   const auto disv = std::make_shared<const DisvCells>(cells);
-  std::vector<io::TextRows> rows{mesh.once(head_of(*cells))};
+  std::vector<io::TextRows> rows{
+      mesh.once(head_of(mesh, "Voronoi cells", mesh.points(), cells->vertices().whole_count()))};
   for (io::TextRows& vertices : vertex_rows(cells, false, [](GlobalId number, geometry::Vec2 place, std::string&to) {
          to += "  ";
          append_line(to, number + 1, place.x, place.y);
@@ -76,6 +99,12 @@ std::vector<FilePlan> plan_disv(const ExchangeMesh& mesh, const std::string& pat
     append_line(to, std::int64_t{dual::whole_cell(around).region});
   });
   return {cells->proved({path, rows}), {paths_of(Format::disv, path, mesh.names())[1], {zones}}};
+}
+
+} // namespace
+
+std::vector<FilePlan> plan_disv(const ExchangeMesh& mesh, const std::string& path) {
+  return mesh.names().cells == CellKind::triangles ? plan_disv_triangles(mesh, path) : plan_disv_voronoi(mesh, path);
 }
 
 } // namespace trime::formats

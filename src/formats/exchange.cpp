@@ -38,6 +38,8 @@ constexpr FormatInfo table[] = {
     {Format::exodus, "exodus", ".exo", false, true, plan_exodus},
     {Format::ugrid, "ugrid", ".nc", false, true, plan_ugrid},
     {Format::ugrid_cells, "ugrid_cells", "_cells.nc", false, true, plan_ugrid_cells},
+    {Format::mpas, "mpas", "_mpas.nc", true, true, plan_mpas},
+    {Format::tough, "tough", ".tough", false, true, plan_tough},
 };
 
 /// Numbers of MSH 2.2 have 32 bits, as have those of most programs that read the text formats.
@@ -47,6 +49,8 @@ void check_fits(const FormatInfo& format, const mesh::DistributedMesh& mesh, con
                                   "{:.9g} (0: not periodic); use {}",
                                   format.word, with.period.x, with.period.y,
                                   words_of(&FormatInfo::holds_periodic, "or")));
+  if (const std::string problem = cells_problem(format.format, with.cells); !problem.empty())
+    throw ConfigError(problem);
   constexpr GlobalId most = std::numeric_limits<std::int32_t>::max();
   const GlobalId triangles = mesh.triangle_slab.total, facets = mesh.facet_slab.total;
   const GlobalId elements = format.format == Format::triangle
@@ -79,6 +83,19 @@ std::optional<Format> format_of_word(const std::string& word) {
   return {};
 }
 
+CellKind cell_kind_of_word(const std::string& word) {
+  return word == "whole" ? CellKind::whole : word == "triangles" ? CellKind::triangles : CellKind::voronoi;
+}
+
+std::string cells_problem(Format format, CellKind kind) {
+  const bool is_flow = format == Format::disv || format == Format::uge || format == Format::tough;
+  if (is_flow && kind == CellKind::whole)
+    return fmt::format("the format '{}' has the cells 'voronoi' or 'triangles', found 'whole'", info_of(format).word);
+  if (format == Format::mpas && kind == CellKind::triangles)
+    return "the format 'mpas' has the cells 'voronoi' or 'whole', found 'triangles'";
+  return {};
+}
+
 std::optional<Format> format_of_path(const std::string& path) {
   const FormatInfo* found = nullptr; // with the longest ending
   for (const FormatInfo& row : table)
@@ -108,6 +125,8 @@ std::vector<std::string> paths_of(Format format, const std::string& path, const 
     paths.push_back(stem + ".cli");
   if (format == Format::disv)
     paths.push_back(stem + ".zones");
+  if (format == Format::mpas)
+    paths.push_back(stem + "_graph.info");
   if (format == Format::uge)
     for (const std::string& part : solver_names(names.parts))
       paths.push_back(stem + "_" + part + ".ex");
@@ -129,6 +148,7 @@ Exported write(Format format, const std::string& path, const mesh::DistributedMe
     io::write_text_rows(file.path, file.rows, files, comm);
     made.checks.insert(made.checks.end(), file.checks.begin(), file.checks.end());
     made.summary += file.summary;
+    made.warning += file.warning;
   }
   written.complete();
   return made;

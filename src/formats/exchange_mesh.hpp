@@ -20,6 +20,7 @@ struct FilePlan {
   std::vector<io::TextRows> rows;
   mesh::Checks checks{}; ///< what was checked about data beyond the mesh
   std::string summary{}; ///< a line about that
+  std::string warning{}; ///< what a user should know of it before the file is used
 };
 
 /// Appends the bytes of a value as they are in memory.
@@ -113,6 +114,8 @@ std::vector<FilePlan> plan_triangle(const ExchangeMesh& mesh, const std::string&
 std::vector<FilePlan> plan_voronoi(const ExchangeMesh& mesh, const std::string& path);
 std::vector<FilePlan> plan_disv(const ExchangeMesh& mesh, const std::string& path);
 std::vector<FilePlan> plan_uge(const ExchangeMesh& mesh, const std::string& path);
+std::vector<FilePlan> plan_mpas(const ExchangeMesh& mesh, const std::string& path);
+std::vector<FilePlan> plan_tough(const ExchangeMesh& mesh, const std::string& path);
 std::vector<FilePlan> plan_vtu(const ExchangeMesh& mesh, const std::string& path);
 std::vector<FilePlan> plan_sms(const ExchangeMesh& mesh, const std::string& path);
 std::vector<FilePlan> plan_adcirc(const ExchangeMesh& mesh, const std::string& path);

@@ -163,7 +163,7 @@ io::WrittenFiles MeshSeries::write_final(const SeriesMesh& mesh) {
                                            options_.file.run_files, comm_);
       written.paths.insert(written.paths.end(), made.paths.begin(), made.paths.end());
       if (!made.checks.empty())
-        cells_ = {{}, made.checks, made.summary};
+        cells_ = {{}, made.checks, made.summary, made.warning};
     }
   return written;
 }

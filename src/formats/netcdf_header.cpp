@@ -104,10 +104,14 @@ void NetcdfHeader::append_attributes(std::string& text, const std::vector<Netcdf
       append_big(text, static_cast<std::int32_t>(NetcdfType::int64));
       append_count(text, 1);
       append_big(text, *id);
-    } else {
+    } else if (const auto* single = std::get_if<float>(&value)) {
       append_big(text, static_cast<std::int32_t>(NetcdfType::float32));
       append_count(text, 1);
-      append_big(text, std::get<float>(value));
+      append_big(text, *single);
+    } else {
+      append_big(text, static_cast<std::int32_t>(NetcdfType::float64));
+      append_count(text, 1);
+      append_big(text, std::get<double>(value));
     }
   }
 }

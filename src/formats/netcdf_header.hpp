@@ -30,7 +30,7 @@ std::int64_t bytes_of(NetcdfType type);
 
 struct NetcdfAttribute {
   std::string name;
-  std::variant<std::string, std::int32_t, std::int64_t, float> value; ///< int64 only in CDF-5
+  std::variant<std::string, std::int32_t, std::int64_t, float, double> value; ///< int64 only in CDF-5
 };
 
 struct NetcdfVariable {

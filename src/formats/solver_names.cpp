@@ -10,7 +10,6 @@
 namespace trime::formats {
 namespace {
 
-constexpr std::size_t longest_set_name = 80; // of a set in Abaqus and in CalculiX
 constexpr std::size_t longest_comment = 100;
 
 // Not those of <cctype>, which depend on the locale.
@@ -32,28 +31,28 @@ std::string upper(std::string name) {
   return name;
 }
 
-std::string simplified(const std::string& name) {
+std::string simplified(const std::string& name, std::size_t longest) {
   std::string made(!name.empty() && is_letter(name[0]) ? "" : "SET_");
   for (const char c : name)
     if (is_letter(c) || is_digit(c))
       made += c;
     else if (!continues_character(c))
       made += '_';
-  return made.substr(0, longest_set_name);
+  return made.substr(0, longest);
 }
 
 } // namespace
 
-std::vector<std::string> solver_names(const std::vector<std::string>& names) {
+std::vector<std::string> solver_names(const std::vector<std::string>& names, std::size_t longest) {
   std::vector<std::string> made;
   std::set<std::string> taken;               // in upper case
   std::map<std::string, std::int64_t> equal; // how many names were simplified to this one
   for (const std::string& name : names) {
-    const std::string base = simplified(name);
+    const std::string base = simplified(name, longest);
     std::string unique = base;
     for (std::int64_t& count = equal[upper(base)]; !taken.insert(upper(unique)).second;) {
       const std::string ending = fmt::format("_{}", count < 2 ? count = 2 : ++count);
-      unique = base.substr(0, longest_set_name - ending.size()) + ending;
+      unique = base.substr(0, longest - ending.size()) + ending;
     }
     made.push_back(unique);
   }

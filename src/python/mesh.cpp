@@ -97,9 +97,10 @@ py::dict quality_of(const Mesh& mesh) {
   return values;
 }
 
-void write(const Mesh& mesh, const std::string& path, bool overwrite, bool vtkhdf, bool xdmf) {
+void write(const Mesh& mesh, const std::string& path, bool overwrite, bool vtkhdf, bool xdmf, bool voronoi,
+           const std::string& cells) {
   const py::gil_scoped_release others_may_run;
-  mesh.write(path, {overwrite, vtkhdf, xdmf});
+  mesh.write(path, {overwrite, vtkhdf, xdmf, voronoi, formats::cell_kind_of_word(cells)});
 }
 
 std::unique_ptr<LocalMesh> local_of(const Mesh& mesh) {

@@ -150,3 +150,30 @@ def read_uge(path):
     assert np.array_equal(cells[:, 0], np.arange(1, count + 1)) and cells.shape[1] == 5 and faces.shape[1] == 6
     assert (cells[:, 3] == 0).all() and (faces[:, 4] == 0).all()
     return cells[:, 1:], faces[:, :2].astype(int) - 1, faces[:, 2:]
+
+
+def fortran_number(text):
+    """A number in ten columns, which must have a decimal point: Fortran's E10.4 would put one into it."""
+    assert len(text) == 10 and "." in text, text
+    return float(text)
+
+
+def read_tough(path):
+    """A file MESH of TOUGH2: names, materials, volumes and centres of elements, ends of connections from 0, and
+    direction, both distances, area and cosine of connections."""
+    text = path.read_text(encoding="ascii")
+    blocks = text.split("\n\n")
+    assert len(blocks) == 3 and blocks[2] == ""
+    elements, connections = (block.split("\n") for block in blocks[:2])
+    assert elements.pop(0) == "ELEME" and connections.pop(0) == "CONNE"
+    names = [row[:5] for row in elements]
+    number_of = {name: k for k, name in enumerate(names)}
+    assert len(number_of) == len(names)
+    assert all(len(row) == 80 and row[5:15] == " " * 10 and row[30:50] == " " * 20 for row in elements)
+    assert all(name.isascii() and name[0].isalpha() and name[:3].isalnum() and name[3:].isdigit() for name in names)
+    values = np.array([[fortran_number(row[k:k + 10]) for k in (20, 50, 60, 70)] for row in elements])
+    assert (values[:, 3] == 0).all()
+    assert all(len(row) == 70 and row[10:25] == " " * 15 for row in connections)
+    ends = np.array([[number_of[row[:5]], number_of[row[5:10]]] for row in connections])
+    numbers = [[int(row[25:30])] + [fortran_number(row[k:k + 10]) for k in (30, 40, 50, 60)] for row in connections]
+    return names, [row[15:20].strip() for row in elements], values[:, 0], values[:, 1:3], ends, np.array(numbers)

@@ -67,7 +67,30 @@ class Cells(WorkspaceCase):
         distances = np.linalg.norm(mesh.points[mesh.triangles] - centres[:, None], axis=2)
         np.testing.assert_allclose(distances, distances[:, :1].repeat(3, axis=1), rtol=1e-11)
 
+    def check_linear(self, name):
+        """What flows out of each cell is 0 if u is linear: fluxes are exact at every site, and no coefficient is
+        negative."""
+        with h5py.File(self.directory / f"{name}.h5") as file:
+            points, facets = file["Mesh/mesh/geometry"][:], file["Mesh/facets/topology"][:]
+            faces, distances, lengths = (file[f"Cells/{array}"][:] for array in
+                                         ("faces", "face_distances", "face_lengths"))
+            period = np.array([file["trime_mpi"].attrs[f"period_{axis}"] for axis in "xy"])
+        arms = points[faces[:, 1]] - points[faces[:, 0]]
+        arms -= period * np.round(arms / np.where(period > 0, period, np.inf))
+        np.testing.assert_allclose(np.hypot(*arms.T), distances, rtol=1e-14)
+        terms = lengths.sum(axis=1) / distances
+        self.assertGreater(terms.min(), -1e-10)
+        out = np.zeros_like(points)
+        np.add.at(out, faces[:, 0], terms[:, None] * arms)
+        np.add.at(out, faces[:, 1], -terms[:, None] * arms)
+        along = points[facets[:, 1]] - points[facets[:, 0]] if len(facets) else np.zeros((0, 2))
+        along -= period * np.round(along / np.where(period > 0, period, np.inf))
+        for end in (0, 1):
+            np.add.at(out, facets[:, end], 0.5 * np.stack([along[:, 1], -along[:, 0]], axis=1))
+        self.assertLess(np.abs(out).max(), 1e-11 * distances.max(), name)
+
     def check_all(self, name="mesh"):
+        self.check_linear(name)
         file, mesh = self.cells(name), Mesh(self.directory / f"{name}.h5")
         self.check_areas(file, mesh)
         self.check_sides(file, mesh)
@@ -148,6 +171,26 @@ class Cells(WorkspaceCase):
         self.assertLess(np.abs(u - exact).max(), 1e-10)
         self.assertAlmostEqual((matrix @ u)[points[:, 0] == 1].sum(), flux, delta=1e-10)
 
+    def test_ten_regions(self):
+        """Ten strips with the conductivities 1 to 10 and a constant flux: nothing is left in any cell inside."""
+        parts = "".join(rectangle(f"s{k}", (k / 10, 0), ((k + 1) / 10, 1)) + region(f"r{k}", f"s{k}")
+                        for k in range(9))
+        self.text_mesh(rectangle("box", (0, 0), (1, 1)) + parts +
+                       "[shape]\ngeometry = box\n[meshing]\npoints = 1500\n")
+        _, mesh = self.check_all()
+        with h5py.File(self.directory / "mesh.h5") as file:
+            faces, distances, lengths, regions = (file[f"Cells/{array}"][:] for array in (
+                "faces", "face_distances", "face_lengths", "face_regions"))
+        strips = {number: int(name[1:]) if name[1:].isdigit() else 9 for number, name in mesh.names.items()}
+        k = np.array([0.0] + [1.0 + strips[number] for number in sorted(strips)])
+        u = np.interp(mesh.points[:, 0], np.arange(11) / 10, np.concatenate([[0], np.cumsum(1 / np.arange(1, 11))]))
+        flux = (k[regions] * lengths).sum(axis=1) / distances * (u[faces[:, 1]] - u[faces[:, 0]])
+        left = np.zeros(len(u))
+        np.add.at(left, faces[:, 0], flux)
+        np.add.at(left, faces[:, 1], -flux)
+        inside = (mesh.points[:, 0] > 0) & (mesh.points[:, 0] < 1)
+        self.assertLess(np.abs(left[inside]).max(), 1e-10 * np.abs(flux).max())
+
     def test_split_curve(self):
         (self.directory / "crack.xy").write_text("0.3 0.4\n0.6 0.5\n0.7 0.7\n")
         self.text_mesh(CRACKED, ranks=2)
@@ -211,6 +254,7 @@ class Cells(WorkspaceCase):
             total = 0.5 * math.fsum(arms[:, 1, 0] * arms[:, 2, 1] - arms[:, 1, 1] * arms[:, 2, 0])
             self.assertAlmostEqual(math.fsum(file.area), total, delta=1e-12)
             self.assertEqual(len(file.polygons), len(points))
+            self.check_linear(config)
 
 
 if __name__ == "__main__":

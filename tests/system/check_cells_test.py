@@ -123,6 +123,19 @@ class CheckCells(WorkspaceCase):
             self.assertAlmostEqual(file[CELL + "areas"][:].sum(), 1, delta=1e-12)
             self.assertEqual(len(file[CELL + "faces"]), 3 * len(file[GEOMETRY]))
 
+    def test_a_refined_mesh_has_cells_too(self):
+        """The cells of four times as many triangles; those of a file without cells have none."""
+        for formats in ("vtkhdf xdmf voronoi", "vtkhdf xdmf"):
+            coarse = self.mesh(HALVES, formats.rsplit(" ", maxsplit=1)[-1], formats=formats)
+            fine = coarse.with_name("fine.h5")
+            done = run("refine", coarse, fine, "--overwrite", ranks=2)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            code, text = check(fine)
+            self.assertEqual(code, 0, text)
+            self.assertEqual(re.findall(r"^ok +(cell_\w+)", text, re.M), CHECKS if "voronoi" in formats else [])
+            with h5py.File(fine) as file:
+                self.assertEqual("Cells" in file, "voronoi" in formats)
+
     def test_without_cells_there_is_no_group(self):
         path = self.mesh(HALVES, "plain", formats="vtkhdf xdmf")
         with h5py.File(path) as file:

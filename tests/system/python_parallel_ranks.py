@@ -6,6 +6,7 @@ import json
 import pathlib
 import sys
 
+import h5py
 import numpy as np
 from mpi4py import MPI
 from trime_mpi import ConfigError, GeometryError, parallel
@@ -133,6 +134,20 @@ def poisson(points):
             "between": comm.allreduce(int((domain.find("iron|copper") < owned).sum()))}
 
 
+def check_cells_in_files(mesh, directory):
+    """What must hold of files with cells, by name; the file NAME.h5 remains."""
+    path = directory / f"plain{comm.size}.h5"
+    mesh.write(path, voronoi=True)
+    mesh.write(directory / f"plain{comm.size}.uge", cells="triangles")
+    cells = mesh.cells()
+    with h5py.File(path) as file:
+        first = mesh.first_point
+        areas = file["Cells/areas"][first:first + mesh.owned_points]
+    head = (directory / f"plain{comm.size}.uge").read_text().splitlines()[0]
+    return {"cells_in_file": np.array_equal(areas, cells.areas[:mesh.owned_points]),
+            "triangles_as_cells": head == f"CELLS {mesh.total_triangles}"}
+
+
 def main(directory):
     """Prints all findings."""
     found = {"ranks": comm.size}
@@ -141,7 +156,7 @@ def main(directory):
     found["arrays"] = {name: agreed(holds) for name, holds in check_arrays(plain).items()}
     found["arrays"] |= {name: agreed(holds) for name, holds in check_cells(plain).items()}
     found["arrays"]["lifetime"] = agreed(check_lifetime())
-    plain.write(directory / f"plain{comm.size}.h5")
+    found["arrays"] |= {name: agreed(holds) for name, holds in check_cells_in_files(plain, directory).items()}
     moved = [parallel.mesh(comm, MOVED, points=2000, start=old) for old in (plain, directory / f"plain{comm.size}.h5")]
     found["start"] = [mesh.hash for mesh in moved]
     found["start_alpha"] = moved[0].quality["alpha_max"]

@@ -9,6 +9,7 @@
 #include "trime/dual/local_cells.hpp"
 #include "trime/facade/shape.hpp"
 #include "trime/facade/size.hpp"
+#include "trime/formats/exchange.hpp"
 #include "trime/handover/local_mesh.hpp"
 #include "trime/mesh/quality.hpp"
 #include "trime/sweep/sweep_history.hpp"
@@ -170,6 +171,9 @@ struct WriteOptions {
   bool overwrite = false; ///< replaces files of the same name; if false, an existing file is a FileError
   bool vtkhdf = true;     ///< also writes NAME.vtkhdf for ParaView; used for `.h5` files only
   bool xdmf = true;       ///< also writes NAME.xdmf for ParaView and other programs; used for `.h5` files only
+  bool voronoi = false;   ///< adds the Voronoi cells as the group /Cells; used for `.h5` files only
+  /// Cells in files of MPAS, MODFLOW 6, PFLOTRAN and TOUGH2.
+  formats::CellKind cells = formats::CellKind::voronoi;
 };
 
 /// @brief A mesh distributed over all ranks of a communicator, with the names of its boundary. Move-only. May be
@@ -212,7 +216,8 @@ public:
   /// @brief Writes the mesh. With the ending `.h5` this is the file that `trime_mpi` writes for the same shape and
   /// options; with `.msh`, `.vtu`, `.mesh` and other endings it is a file for another program, see
   /// formats::all_formats. Missing directories are made. A file appears complete or not at all.
-  /// @throws ConfigError for an unknown ending; FileError if the file exists or cannot be written; on all ranks
+  /// @throws ConfigError for an unknown ending, or a format that does not have such cells; FileError if the file exists
+  /// or cannot be written; on all ranks
   /// @note Collective.
   void write(const std::string& path, const WriteOptions& options = {}) const;
 

@@ -22,8 +22,9 @@ struct FilePlan;
 
 /// The output formats. vtkhdf and xdmf describe the arrays of NAME.h5 for other readers, and text has the files of
 /// TriMe++. The formats gmsh, gmsh2 and sms are MSH 4.1, MSH 2.2 and .2dm; schism is hgrid.gr3, and telemac is Selafin
-/// with its boundary conditions. The formats voronoi, disv (MODFLOW 6) and uge (PFLOTRAN) have the Voronoi cells of the
-/// points, not the triangles. The faces of ugrid are triangles, and those of ugrid_cells the cells.
+/// with its boundary conditions. The formats voronoi, mpas, disv (MODFLOW 6), uge (PFLOTRAN) and tough (TOUGH2) have
+/// the Voronoi cells of the points, not the triangles. The faces of ugrid are triangles, and those of ugrid_cells the
+/// cells.
 enum class Format {
   vtkhdf,
   xdmf,
@@ -46,8 +47,22 @@ enum class Format {
   abaqus,
   exodus,
   ugrid,
-  ugrid_cells
+  ugrid_cells,
+  mpas,
+  tough
 };
+
+/// The cells in files of mpas, disv, uge and tough.
+enum class CellKind {
+  voronoi,  ///< cells of all points; the boundary edges cut those on the boundary
+  whole,    ///< cells of the points inside; for mpas
+  triangles ///< the triangles, with their circumcentres as centres; for disv, uge and tough
+};
+
+/// Returns the kind of cells that a config calls so. @pre the word is one of them
+CellKind cell_kind_of_word(const std::string& word);
+/// Returns why a format cannot have cells of a kind; an empty text if it can, or if the kind does not concern it.
+std::string cells_problem(Format format, CellKind kind);
 
 /// One row of the table of formats. Config, --help, `trime_mpi convert` and the output of a run take all facts about a
 /// format from this row.
@@ -87,6 +102,7 @@ struct Names {
   std::optional<std::vector<std::string>> open_boundary{};
   /// The files of fort14 and 2dm hold longitude and latitude, not the coordinates of the mesh. Needs `crs`.
   bool in_degrees = false;
+  CellKind cells = CellKind::voronoi;             ///< cells in files of mpas, disv, uge and tough
   std::vector<geometry::CurveKind> curve_kinds{}; ///< kinds of the curves, see geometry::InnerCurves::kinds
 };
 
@@ -99,6 +115,7 @@ struct Exported {
   std::vector<std::string> paths;
   mesh::Checks checks{}; ///< what was checked about data beyond the mesh, such as Voronoi cells
   std::string summary{}; ///< a line about that
+  std::string warning{}; ///< what a user should know of it before the files are used
 };
 
 /// @brief Writes the mesh in a format of another program. Each file appears complete or not at all; files of the same

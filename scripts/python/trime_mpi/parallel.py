@@ -26,6 +26,7 @@ from .handover import Dolfinx, dolfinx_of, meshio_of
 from .read import Check
 
 NAME = "trime_mpi._parallel"
+CELL_KINDS = ("voronoi", "whole", "triangles")
 
 
 def find_module():
@@ -226,10 +227,16 @@ class Mesh:
         """Returns the Voronoi cells of the points of this rank as Cells, for finite volumes. Collective."""
         return Cells(self._native.cells())
 
-    def write(self, path, overwrite=False, vtkhdf=True, xdmf=True):
+    def write(self, path, overwrite=False, vtkhdf=True, xdmf=True, voronoi=False, cells="voronoi"):
         """Writes the whole mesh to a file: `.h5`, or the ending of another format, see configs/formats.md.
-        Collective."""
-        self._native.write(os.fspath(path), overwrite, vtkhdf, xdmf)
+        Collective.
+
+        @param voronoi: add the Voronoi cells to an `.h5` file, as the group /Cells
+        @param cells: `voronoi`, `whole` or `triangles`, the cells in files of MPAS, MODFLOW 6, PFLOTRAN and TOUGH2
+        """
+        if cells not in CELL_KINDS:
+            raise ValueError(f"cells = {cells!r}: expected one of {', '.join(CELL_KINDS)}")
+        self._native.write(os.fspath(path), overwrite, vtkhdf, xdmf, voronoi, cells)
 
     def to_meshio(self):
         """Returns the owned triangles and edges of this rank as a meshio.Mesh, with global ids and names."""

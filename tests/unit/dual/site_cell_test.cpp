@@ -145,6 +145,22 @@ TEST(SiteCell, ShowsAnObtuseAngleAtAnEdgeByANegativeHalf) {
   EXPECT_NEAR(half_dual_length(around, 0, 0), around.centres[0].y, 1e-15);
 }
 
+TEST(Kites, AddUpToTheTriangleAndToTheCell) {
+  for (const auto& [b, c] :
+       {std::pair{Vec2{3, 0}, Vec2{0, 4}}, {Vec2{2, 0.1}, Vec2{0.7, 1.3}}, {Vec2{4, 0}, Vec2{1, 1}}}) {
+    const std::array<double, 3> kites = kites_of(b, c);
+    EXPECT_NEAR(kites[0] + kites[1] + kites[2], 0.5 * cross(b, c), 1e-15);
+  }
+  EXPECT_EQ(kites_of({3, 0}, {0, 4}), (std::array<double, 3>{3, 1.5, 1.5}));    // the circumcentre is (1.5, 2)
+  EXPECT_EQ(kites_of({4, 0}, {1, 1}), (std::array<double, 3>{-0.25, 0.25, 2})); // obtuse at the third corner
+  double sum = 0;
+  for (const double kite : kites_around(hexagon({1, 1, 1, 1, 1, 1}))) {
+    EXPECT_NEAR(kite, hexagon_area / 6, 1e-15);
+    sum += kite;
+  }
+  EXPECT_NEAR(sum, hexagon_area, 1e-15);
+}
+
 TEST(Difference, IsTheShortestOneAcrossTheBorder) {
   EXPECT_EQ(difference({0.9375, 0.5}, {0.0625, 0.25}, {1, 0}), (Vec2{-0.125, 0.25}));
   EXPECT_EQ(difference({0.9375, 0.5}, {0.0625, 0.25}, {0, 0}), (Vec2{0.875, 0.25}));

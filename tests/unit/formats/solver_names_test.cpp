@@ -33,6 +33,8 @@ TEST(SolverNames, AreShort) {
   EXPECT_EQ(made[0], std::string(80, 'x'));
   EXPECT_EQ(made[1], std::string(78, 'x') + "_2");
   EXPECT_EQ(made[2], std::string(78, 'x') + "_3");
+  const std::vector<std::string> materials{"soft_", "sof_2", "clay", "SET_2"};
+  EXPECT_EQ(solver_names({"soft_rock", "soft_rock_2", "clay", "2"}, 5), materials);
 }
 
 TEST(SolverNames, ManyEqualNamesTakeNoLongerThanOthers) {
