@@ -31,7 +31,7 @@ ARROWS = {
     "sites": ["comm", "geometry", "mesh", "sizing", "delaunay", "decomposition", "polygon"],
     "placing": ["comm", "geometry", "mesh", "sizing", "polygon", "sites"],
     "fitting": ["comm", "geometry", "sizing", "generalise", "boundary", "sites", "placing"],
-    "start": ["comm", "geometry", "mesh", "decomposition", "sites", "placing", "fitting"],
+    "start": ["comm", "geometry", "mesh", "sizing", "decomposition", "sites", "placing", "fitting"],
     "sweep": ["comm", "geometry", "mesh", "delaunay", "polygon", "sites"],
     "cleanup": ["comm", "geometry", "mesh", "sizing", "delaunay", "decomposition", "polygon", "sites"],
     "extraction": ["comm", "geometry", "mesh", "sizing", "decomposition", "polygon", "sites"],

@@ -4,7 +4,7 @@
 #include "boundary/cornered_boundary.hpp"
 #include "boundary/feature_rule.hpp"
 #include "boundary/rules.hpp"
-#include "core/thread_loop.hpp"
+#include "sizing/size_blocks.hpp"
 #include "trime/core/error.hpp"
 #include "trime/geometry/piece_tree.hpp"
 
@@ -251,9 +251,13 @@ bool FixedPoints::is_near(Vec2 p, double distance) const {
 
 std::int64_t FixedPoints::count_clear(std::span<const mesh::Site> sites, const sizing::SizeField& size) const {
   std::vector<std::uint8_t> clear(sites.size());
-  thread_loop(static_cast<std::ptrdiff_t>(sites.size()), 256, [&](std::ptrdiff_t item, int) {
-    const auto k = static_cast<std::size_t>(item);
-    clear[k] = !is_near(sites[k].position, BoundaryRules::fixed_clearance * size.size(sites[k].position));
+  sizing::loop_over_blocks(size, std::ssize(sites), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    std::vector<Vec2> places;
+    for (std::ptrdiff_t k = begin; k < end; ++k)
+      places.push_back(sites[static_cast<std::size_t>(k)].position);
+    const std::vector<double> sizes = sizing::sizes_at(size, places);
+    for (std::size_t k = 0; k < places.size(); ++k)
+      clear[static_cast<std::size_t>(begin) + k] = !is_near(places[k], BoundaryRules::fixed_clearance * sizes[k]);
   });
   return std::count(clear.begin(), clear.end(), std::uint8_t{1});
 }
@@ -263,11 +267,17 @@ void FixedPoints::place_among(mesh::SiteList& sites, const mesh::TileRange& tile
   if (inside_.empty())
     return;
   std::vector<std::uint8_t> taken(sites.size());
-  thread_loop(static_cast<std::ptrdiff_t>(sites.size()), 256, [&](std::ptrdiff_t item, int) {
-    const auto k = static_cast<std::size_t>(item);
-    const mesh::Site& site = sites[k];
-    taken[k] = site.boundary == mesh::free_site &&
-               is_near(site.position, BoundaryRules::fixed_clearance * size.size(site.position));
+  sizing::loop_over_blocks(size, std::ssize(sites), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    std::vector<Vec2> places;
+    std::vector<std::size_t> numbers;
+    for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k)
+      if (sites[k].boundary == mesh::free_site) {
+        places.push_back(sites[k].position);
+        numbers.push_back(k);
+      }
+    const std::vector<double> sizes = sizing::sizes_at(size, places);
+    for (std::size_t k = 0; k < places.size(); ++k)
+      taken[numbers[k]] = is_near(places[k], BoundaryRules::fixed_clearance * sizes[k]);
   });
   std::size_t kept = 0;
   for (std::size_t k = 0; k < sites.size(); ++k)

@@ -7,9 +7,11 @@
 #include "comm/agree.hpp"
 #include "core/thread_loop.hpp"
 #include "polygon/both_sides.hpp"
+#include "sizing/size_blocks.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace trime::boundary {
 
@@ -89,9 +91,11 @@ private:
 
   std::vector<double> sizes_at_sites() const {
     std::vector<double> sizes(static_cast<std::size_t>(last_ - first_));
-    thread_loop(std::ssize(sizes), sites_in_a_row, [&](std::ptrdiff_t k, int) {
-      const auto site = static_cast<std::size_t>(first_ + k);
-      sizes[static_cast<std::size_t>(k)] = sizing::checked_size(size_, boundary_.sites[site].position);
+    sizing::loop_over_blocks(size_, std::ssize(sizes), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+      std::vector<Vec2> places;
+      for (std::ptrdiff_t k = begin; k < end; ++k)
+        places.push_back(boundary_.sites[static_cast<std::size_t>(first_ + k)].position);
+      std::ranges::copy(sizing::checked_sizes_at(size_, places), sizes.begin() + begin);
     });
     return sizes;
   }

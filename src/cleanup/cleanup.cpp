@@ -41,7 +41,7 @@ bool is_surely_good(const mesh::BinnedPoints& points, LocalIndex site, const Fan
 }
 
 /// A site with the largest alpha in its fan if that is bad and finite, else 0. @pre the fan is complete
-Candidate candidate_at(const SiteState& state, LocalIndex site, const Fan& fan) {
+Candidate candidate_at(const SiteState& state, LocalIndex site, const Fan& fan, double bad_alpha) {
   const mesh::BinnedPoints& points = state.points();
   const Vec2 p = points.position(site);
   Candidate candidate{p, state.sizes()[site]};
@@ -53,34 +53,34 @@ Candidate candidate_at(const SiteState& state, LocalIndex site, const Fan& fan) 
     candidate.alpha = std::max(candidate.alpha, alpha);
     candidate.obtuse = candidate.obtuse || (alpha > mesh::least_obtuse_alpha && mesh::is_obtuse(p, q, r));
   }
-  if (!(candidate.alpha > CleanupRules::bad_alpha && std::isfinite(candidate.alpha)))
+  if (!(candidate.alpha > bad_alpha && std::isfinite(candidate.alpha)))
     candidate.alpha = 0;
   return candidate;
 }
 
 /// Finds the bad triangles of the owned sites, by stars that are computed here. Collective.
 std::vector<Candidate> find_candidates(Stage& stage, const geometry::Lattice& lattice,
-                                       const delaunay::StarBuilder& builder) {
+                                       const delaunay::StarBuilder& builder, double bad_alpha) {
   SiteState& state = *stage.state;
   state.compute_stars(builder, *stage.size, Wanted::all_sites);
   const StageView view = stage.view(lattice);
   const mesh::BinnedPoints& points = state.points();
-  return gather_in_order<Candidate>(points.owned(), sites_in_a_row,
-                                    [&](std::ptrdiff_t item, std::vector<Candidate>& list) {
-                                      const auto i = static_cast<LocalIndex>(item);
-                                      const Fan fan = inside_fan(view, i);
-                                      if (!state.stars().certain(i) || !fan.complete)
-                                        return;
-                                      if (const Candidate candidate = candidate_at(state, i, fan); candidate.alpha > 0)
-                                        list.push_back(candidate);
-                                    });
+  return gather_in_order<Candidate>(
+      points.owned(), sites_in_a_row, [&](std::ptrdiff_t item, std::vector<Candidate>& list) {
+        const auto i = static_cast<LocalIndex>(item);
+        const Fan fan = inside_fan(view, i);
+        if (!state.stars().certain(i) || !fan.complete)
+          return;
+        if (const Candidate candidate = candidate_at(state, i, fan, bad_alpha); candidate.alpha > 0)
+          list.push_back(candidate);
+      });
 }
 
 } // namespace
 
 CleanupCounts mend(Stage& stage, const geometry::Boundary& meshed, const geometry::Lattice& lattice,
                    const delaunay::StarBuilder& builder, const CleanupOptions& options) {
-  CleanupRounds rounds(stage, meshed, lattice, options, find_candidates(stage, lattice, builder));
+  CleanupRounds rounds(stage, meshed, lattice, options, find_candidates(stage, lattice, builder, options.bad_alpha));
   for (int k = 1; k <= CleanupRules::stages + CleanupRules::obtuse_stages; ++k)
     rounds.run_stage(k);
   const CleanupCounts all = rounds.counts();

@@ -2,6 +2,7 @@
 // The clean-up improves bad triangles after all sweeps, one patch of triangles after the other.
 #pragma once
 
+#include "cleanup/rules.hpp"
 #include "delaunay/star_builder.hpp"
 #include "sites/stage.hpp"
 #include "trime/cleanup/cleanup_counts.hpp"
@@ -14,6 +15,7 @@ struct CleanupOptions {
   GlobalId most_points = 0; ///< largest number of points; 0: half a per cent more than at the beginning
   double tolerance = 0;     ///< [asked sizes] largest distance of a boundary edge from corners between its ends; 0: no
                             ///< boundary edge may leave out a corner
+  double bad_alpha = CleanupRules::bad_alpha; ///< triangles with a larger alpha are improved
 };
 
 /// @brief Improves bad triangles of a stage in rounds. It tries changes and keeps those that improve the triangles,

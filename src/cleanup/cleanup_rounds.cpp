@@ -38,9 +38,10 @@ CleanupRounds::CleanupRounds(const sites::Stage& stage, const geometry::Boundary
       limits_(comm_.sum(std::int64_t{stage.state->points().owned()}), options.most_points,
               static_cast<GlobalId>(stage.polygon.inner.chords.size())),
       boundary_(comm_, meshed, stage.polygon, stage.asked_size(), options.tolerance), sites_(*stage.state, boundary_),
-      candidates_(stage.state->grid()), neighbours_(comm_) {
+      candidates_(stage.state->grid()), neighbours_(comm_), bad_alpha_(options.bad_alpha) {
   for (std::unique_ptr<PatchOptimizer>& optimizer : optimizers_)
-    optimizer = std::make_unique<PatchOptimizer>(stage.polygon, boundary_.curve(), lattice, PatchOptions{});
+    optimizer = std::make_unique<PatchOptimizer>(stage.polygon, boundary_.curve(), lattice,
+                                                 PatchOptions{.bad_alpha = options.bad_alpha});
   for (const Candidate& candidate : candidates)
     candidates_.set(candidate);
   meet_neighbours(list_contenders());
@@ -75,8 +76,9 @@ void CleanupRounds::finish(sites::Stage& stage, const delaunay::StarBuilder& bui
 
 /// Returns the alpha above which triangles are tried again: lower in a good mesh.
 double CleanupRounds::find_again_alpha() const {
-  return std::clamp(1 + Rules::again_share * (comm_.max(candidates_.worst()) - 1), Rules::bad_alpha,
-                    Rules::again_alpha);
+  if (bad_alpha_ > Rules::bad_alpha) // a mesh of a series, which is not polished
+    return Rules::again_alpha;
+  return std::clamp(1 + Rules::again_share * (comm_.max(candidates_.worst()) - 1), bad_alpha_, Rules::again_alpha);
 }
 
 std::vector<Contender> CleanupRounds::list_contenders() {

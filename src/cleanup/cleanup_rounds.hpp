@@ -87,6 +87,7 @@ private:
   CleanupCounts counts_; // sums over the patches of this rank
   int round_ = 0;
   int stage_ = 1;          // stages after the first try the worst places of this mesh once more
+  double bad_alpha_;       // triangles with a larger alpha are improved
   double again_alpha_ = 0; // places with a larger alpha are tried once more
 };
 

@@ -5,10 +5,12 @@
 #include "core/thread_loop.hpp"
 #include "extraction/mesh_quality.hpp"
 #include "extraction/rules.hpp"
+#include "sizing/size_blocks.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 namespace trime::extraction {
 namespace {
@@ -71,14 +73,19 @@ private:
     mesh.boundary.resize(n);
     mesh.size.resize(n);
     mesh.fixed.resize(n);
-    thread_loop(static_cast<std::ptrdiff_t>(n), 4096, [&](std::ptrdiff_t item, int) {
-      const std::size_t k = static_cast<std::size_t>(item);
-      const LocalIndex i = numbering_.order[k];
-      const std::int32_t b = points_.boundary(i);
-      mesh.points[k] = points_.position(i);
-      mesh.boundary[k] = b < 0 ? 0 : view_.polygon.sites[at(b)].tag;
-      mesh.size[k] = static_cast<float>(view_.size.size(points_.position(i))); // that of the state may be older
-      mesh.fixed[k] = b >= 0 ? view_.polygon.sites[at(b)].corner : b == mesh::fixed_site && is_kept(mesh.points[k]);
+    sizing::loop_over_blocks(view_.size, std::ssize(mesh.points), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+      const auto first = static_cast<std::size_t>(begin), count = static_cast<std::size_t>(end - begin);
+      for (std::size_t k = first; k < first + count; ++k) {
+        const LocalIndex i = numbering_.order[k];
+        const std::int32_t b = points_.boundary(i);
+        mesh.points[k] = points_.position(i);
+        mesh.boundary[k] = b < 0 ? 0 : view_.polygon.sites[at(b)].tag;
+        mesh.fixed[k] = b >= 0 ? view_.polygon.sites[at(b)].corner : b == mesh::fixed_site && is_kept(mesh.points[k]);
+      }
+      const std::vector<double> sizes = // those of the state may be older
+          sizing::sizes_at(view_.size, std::span(mesh.points).subspan(first, count));
+      for (std::size_t k = 0; k < count; ++k)
+        mesh.size[first + k] = static_cast<float>(sizes[k]);
     });
     mesh.point_slab = {numbering_.first, numbering_.total};
     mesh.foreign = numbering_.foreign;

@@ -5,10 +5,12 @@
 #include "core/elementary.hpp"
 #include "extraction/rules.hpp"
 #include "polygon/both_sides.hpp"
+#include "sizing/size_blocks.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
 
 namespace trime::extraction {
 namespace {
@@ -243,6 +245,28 @@ void QualityMeter::add_triangle(Vec2 p, Vec2 q, Vec2 r) {
 }
 
 void QualityMeter::add_edge(Vec2 p, Vec2 q, double size_at_p) {
+  if (size_ && size_->prefers_blocks()) {
+    waiting_.push_back({p, q, size_at_p});
+    if (std::ssize(waiting_) == sizing::places_in_block)
+      add_waiting_edges();
+    return;
+  }
+  collect_edge(p, q, size_at_p);
+}
+
+/// Asks for the sizes in the middles of all waiting edges at once.
+void QualityMeter::add_waiting_edges() {
+  std::vector<Vec2> middles;
+  middles.reserve(waiting_.size());
+  for (const WaitingEdge& edge : waiting_)
+    middles.push_back(periods_.wrap(0.5 * (edge.from + edge.to)));
+  const std::vector<double> sizes = sizing::checked_sizes_at(*size_, middles);
+  for (std::size_t k = 0; k < sizes.size(); ++k)
+    add_edge(waiting_[k].from, waiting_[k].to, waiting_[k].size_at_from, sizes[k]);
+  waiting_.clear();
+}
+
+void QualityMeter::collect_edge(Vec2 p, Vec2 q, double size_at_p) {
   from_size_[edges_] = size_at_p;
   from_.set(edges_, p);
   to_.set(edges_, q);
@@ -252,11 +276,12 @@ void QualityMeter::add_edge(Vec2 p, Vec2 q, double size_at_p) {
 
 void QualityMeter::add_edge(Vec2 p, Vec2 q, double size_at_p, double size_at_middle) {
   middle_size_[edges_] = size_at_middle;
-  add_edge(p, q, size_at_p);
+  collect_edge(p, q, size_at_p);
 }
 
 void QualityMeter::finish() {
   measure_triangles();
+  add_waiting_edges();
   measure_edges();
 }
 
@@ -301,28 +326,13 @@ void QualityMeter::list_if_bad(double alpha, std::size_t k) {
 
 /// Sets h at the middles of the edges of this block.
 void QualityMeter::find_sizes(std::span<double> sizes) const {
-  if (!size_)
+  if (!size_ || size_->prefers_blocks())
     std::copy_n(middle_size_.begin(), sizes.size(), sizes.begin());
   else if (size_->is_uniform())
     std::ranges::fill(sizes, sizing::checked_size(*size_, {}));
   else
-    find_varying_sizes(sizes);
-}
-
-void QualityMeter::find_varying_sizes(std::span<double> sizes) const {
-  const auto middle = [&](std::size_t k) { return periods_.wrap(0.5 * (from_[k] + to_[k])); };
-  if (!size_->prefers_blocks()) {
     for (std::size_t k = 0; k < sizes.size(); ++k)
-      sizes[k] = sizing::checked_size(*size_, middle(k));
-    return;
-  }
-  std::array<Vec2, block> middles;
-  for (std::size_t k = 0; k < sizes.size(); ++k)
-    middles[k] = middle(k);
-  size_->sizes(std::span(middles).first(sizes.size()), sizes);
-  for (std::size_t k = 0; k < sizes.size(); ++k)
-    if (!sizing::is_valid_size(sizes[k]))
-      sizing::fail_for_size(middles[k], sizes[k]);
+      sizes[k] = sizing::checked_size(*size_, periods_.wrap(0.5 * (from_[k] + to_[k])));
 }
 
 void QualityMeter::measure_edges() {

@@ -153,13 +153,19 @@ private:
     }
     geometry::Vec2 operator[](std::size_t k) const { return {x[k], y[k]}; }
   };
+  /// An edge until the size in its middle is known.
+  struct WaitingEdge {
+    geometry::Vec2 from, to;
+    double size_at_from;
+  };
+  void add_waiting_edges();
+  void collect_edge(geometry::Vec2 p, geometry::Vec2 q, double size_at_p);
   void measure_triangles();
   void list_if_bad(double alpha, std::size_t k);
   void measure_edges();
   void note_extremes(std::span<const double> length, std::span<const double> size);
 
   void find_sizes(std::span<double> sizes) const;
-  void find_varying_sizes(std::span<double> sizes) const;
 
   const sizing::SizeField* size_ = nullptr;
   const geometry::Periods& periods_;
@@ -167,7 +173,8 @@ private:
   QualitySums sums_;
   std::size_t triangles_ = 0, edges_ = 0; // numbers of triangles and edges in the incomplete blocks
   Places p_, q_, r_, from_, to_;
-  Values from_size_, middle_size_; // the latter only without a size field
+  Values from_size_, middle_size_;   // the latter only if add_edge or add_waiting_edges knows it
+  std::vector<WaitingEdge> waiting_; // if the size field prefers blocks
   std::span<float> alpha_, beta_;
 };
 

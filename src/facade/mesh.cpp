@@ -297,6 +297,9 @@ const mesh::QualitySummary& Mesh::quality() const {
 std::uint64_t Mesh::hash() const {
   return result().mesh.hash;
 }
+int Mesh::sweeps() const {
+  return result().history.empty() ? 0 : result().history.back().sweep;
+}
 const std::vector<std::string>& Mesh::facet_names() const {
   return implementation_->origin.part_names;
 }

@@ -9,9 +9,12 @@
 #include "fitting/simplified_curves.hpp"
 #include "placing/density_sampler.hpp"
 #include "placing/work_share.hpp"
+#include "sizing/size_blocks.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <vector>
 
 namespace trime::fitting {
 namespace {
@@ -30,8 +33,56 @@ using geometry::Vec2;
 using polygon::BoundarySite;
 using polygon::BoundarySites;
 
-constexpr double arc_step = pi / 8;            // of the polygon along a circular piece
-constexpr std::ptrdiff_t chords_in_a_row = 16; // by one thread
+constexpr double arc_step = pi / 8;             // of the polygon along a circular piece
+constexpr std::size_t chords_in_a_row = 16;     // by one thread
+constexpr std::size_t chords_together = 0x1000; // the same if the size prefers blocks
+
+/// A chord along which 1 / h is integrated by Simpson's rule, in steps of about the local size.
+struct ChordIntegral {
+  geometry::Segment chord;
+  double length;
+  double first = 0;            // 1 / h at the end of the steps so far
+  double count = 0, share = 0; // integral and share of the chord so far
+  double step = 0;             // share of the present step
+
+  Vec2 place(double at) const { return chord.a + at * (chord.b - chord.a); }
+  bool is_unfinished(double most) const { return share < 1 && count < most && std::isfinite(first); }
+  void choose_step() {
+    step = std::max(FitRules::integral_step / (first * length), 1e-9);
+    step = share + 1.25 * step < 1 ? step : 1 - share;
+  }
+  void pass(double middle, double last) {
+    count += step * length * (first + 4 * middle + last) / 6;
+    share = step < 1 - share ? share + step : 1;
+    first = last;
+  }
+};
+
+/// Integrates along all chords at the same time. @param most an integral ends when it is larger
+void integrate(const sizing::SizeField& size, const geometry::Periods& periods, double most,
+               std::span<ChordIntegral> chords) {
+  std::vector<Vec2> places;
+  for (const ChordIntegral& chord : chords)
+    places.push_back(periods.wrap(chord.place(0)));
+  std::vector<double> sizes = sizing::sizes_at(size, places);
+  std::vector<ChordIntegral*> unfinished;
+  for (std::size_t k = 0; k < chords.size(); ++k) {
+    chords[k].first = 1 / sizes[k];
+    unfinished.push_back(&chords[k]);
+  }
+  const auto is_finished = [most](const ChordIntegral* chord) { return !chord->is_unfinished(most); };
+  for (std::erase_if(unfinished, is_finished); !unfinished.empty(); std::erase_if(unfinished, is_finished)) {
+    places.clear();
+    for (ChordIntegral* chord : unfinished) {
+      chord->choose_step();
+      places.push_back(periods.wrap(chord->place(chord->share + 0.5 * chord->step)));
+      places.push_back(periods.wrap(chord->place(chord->share + chord->step)));
+    }
+    sizes = sizing::sizes_at(size, places);
+    for (std::size_t k = 0; k < unfinished.size(); ++k)
+      unfinished[k]->pass(1 / sizes[2 * k], 1 / sizes[2 * k + 1]);
+  }
+}
 
 /// A vertex of the polygon on the unrolled loop, and the length of the curve up to it from the one before.
 struct Vertex {
@@ -193,29 +244,20 @@ std::optional<double> CountEstimate::strides(const sizing::SizeField& size) cons
   return std::isfinite(all) ? std::optional(all) : std::nullopt;
 }
 
-/// Simpson's rule, in steps of about the local size. Collective.
+/// By integrals along all chords. Collective.
 std::optional<double> CountEstimate::integrated(const sizing::SizeField& size) const {
   const BoundarySites& polygon = reference_.polygon;
   const double most = far_too_many * points_;
-  const auto count_on = [&](std::ptrdiff_t k, std::vector<double>& counts) {
-    const geometry::Segment chord = polygon.chord(static_cast<LocalIndex>(k));
-    const auto inverse = [&](double share) {
-      return 1 / size.size(polygon.periods.wrap(chord.a + share * (chord.b - chord.a)));
-    };
-    const double length = lengths_[static_cast<std::size_t>(k)];
-    double count = 0, share = 0, first = inverse(0);
-    while (share < 1 && count < most && std::isfinite(first)) {
-      double step = std::max(FitRules::integral_step / (first * length), 1e-9);
-      step = share + 1.25 * step < 1 ? step : 1 - share;
-      const double last = inverse(share + step);
-      count += step * length * (first + 4 * inverse(share + 0.5 * step) + last) / 6;
-      share = step < 1 - share ? share + step : 1;
-      first = last;
-    }
-    counts.push_back(std::isfinite(first) ? count : NAN);
+  const auto count_on = [&](std::size_t begin, std::size_t end, double* counts) {
+    std::vector<ChordIntegral> chords;
+    for (std::size_t k = begin; k < end; ++k)
+      chords.push_back({polygon.chord(static_cast<LocalIndex>(k)), lengths_[k]});
+    integrate(size, polygon.periods, most, chords);
+    for (const ChordIntegral& chord : chords)
+      *counts++ = std::isfinite(chord.first) ? chord.count : NAN;
   };
-  const std::vector<double> counts =
-      comm::gather_shared<double>(context_.comm, std::ssize(polygon.sites), chords_in_a_row, count_on);
+  const std::vector<double> counts = comm::compute_shared_runs<double>(
+      context_.comm, polygon.sites.size(), size.prefers_blocks() ? chords_together : chords_in_a_row, count_on);
   double all = 0;
   for (std::size_t loop = 0; loop + 1 < polygon.loop_start.size(); ++loop) {
     double sites = 0;

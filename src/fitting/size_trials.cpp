@@ -3,10 +3,12 @@
 
 #include "boundary/rules.hpp"
 #include "fitting/rules.hpp"
+#include "sizing/size_blocks.hpp"
 #include "trime/core/error.hpp"
 
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace trime::fitting {
 namespace {
@@ -111,12 +113,8 @@ void for_each_sampled_piece(const geometry::Boundary& boundary, const Sample& sa
 }
 
 double smallest_sampled_size(const LayoutContext& context) {
-  double smallest = INFINITY;
-  const auto sample = [&](geometry::Vec2 p) {
-    const double s = context.relative_size.size(context.given_boundary.periods.wrap(p));
-    if (sizing::is_valid_size(s) && s < smallest)
-      smallest = s;
-  };
+  std::vector<geometry::Vec2> places;
+  const auto sample = [&](geometry::Vec2 p) { places.push_back(context.given_boundary.periods.wrap(p)); };
   for_each_sampled_piece(context.given_boundary, sample);
   const geometry::Box box =
       context.given_boundary.periods.any() ? context.domain.frame().container() : context.given_boundary.bounding_box();
@@ -124,6 +122,10 @@ double smallest_sampled_size(const LayoutContext& context) {
     for (int i = 0; i < samples_per_side; ++i)
       sample({box.min.x + (i + 0.5) / samples_per_side * box.width(),
               box.min.y + (j + 0.5) / samples_per_side * box.height()});
+  double smallest = INFINITY;
+  for (const double s : sizing::sizes_at(context.relative_size, places))
+    if (sizing::is_valid_size(s) && s < smallest)
+      smallest = s;
   if (!(smallest < INFINITY))
     throw GeometryError("the size field is not positive anywhere near the shape: expected a positive size everywhere");
   return smallest;

@@ -2,9 +2,11 @@
 #include "fitting/size_warnings.hpp"
 
 #include "fitting/rules.hpp"
+#include "sizing/size_blocks.hpp"
 #include "trime/core/error.hpp"
 
 #include <cmath>
+#include <vector>
 
 namespace trime::fitting {
 namespace {
@@ -26,16 +28,10 @@ void warn_of_steep_sizes(const Stage& stage, const geometry::Boundary& boundary,
     return;
   const geometry::Box box = boundary.bounding_box();
   const geometry::Vec2 stride{box.width() / per_side, box.height() / per_side};
-  double steepest = 0;
-  geometry::Vec2 place;
+  std::vector<geometry::Vec2> places; // always two, of which the second lies beside the first
   const auto look = [&](geometry::Vec2 p, geometry::Vec2 to_next) {
-    if (!stage.guard->inside(lattice.snap(p)) || !stage.guard->inside(lattice.snap(p + to_next)))
-      return;
-    const double slope = std::fabs(stage.size->size(p + to_next) - stage.size->size(p)) / geometry::length(to_next);
-    if (slope > steepest) {
-      steepest = slope;
-      place = p;
-    }
+    if (stage.guard->inside(lattice.snap(p)) && stage.guard->inside(lattice.snap(p + to_next)))
+      places.insert(places.end(), {p, p + to_next});
   };
   for (int j = 0; j < per_side; ++j)
     for (int i = 0; i < per_side; ++i) {
@@ -43,6 +39,16 @@ void warn_of_steep_sizes(const Stage& stage, const geometry::Boundary& boundary,
       look(p, {stride.x, 0});
       look(p, {0, stride.y});
     }
+  const std::vector<double> sizes = sizing::sizes_at(*stage.size, places);
+  double steepest = 0;
+  geometry::Vec2 place;
+  for (std::size_t k = 0; k < places.size(); k += 2) {
+    const double slope = std::fabs(sizes[k + 1] - sizes[k]) / geometry::length(places[k + 1] - places[k]);
+    if (slope > steepest) {
+      steepest = slope;
+      place = places[k];
+    }
+  }
   if (steepest > warned_slope)
     log.warning("the size field has gradient {:.3g} near {}, but triangles can follow a gradient of at most about 0.5: "
                 "expect fewer points and small angles, or use more points or a smoother size",

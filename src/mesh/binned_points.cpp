@@ -245,8 +245,7 @@ std::vector<BinnedPoints::Newcomer> BinnedPoints::place_newcomers(std::span<cons
 IndexShift BinnedPoints::edit(std::vector<LocalIndex> gone, std::span<const Site> come,
                               std::vector<LocalIndex>& new_index) {
   TRIME_ASSERT(state_ == State::sorted || state_ == State::prepared, "sites can be edited only while they are sorted");
-  TRIME_ASSERT(!has_leads_ && drifts_.largest().distance == 0,
-               "sites that have moved since the last sorting cannot be edited");
+  TRIME_ASSERT(drifts_.largest().distance == 0, "sites that have moved since the last sorting cannot be edited");
   assign_ghosts({}, {}, {});
   const std::vector<Newcomer> list = place_newcomers(come, gone);
   std::vector<LocalIndex> places;
@@ -261,12 +260,16 @@ IndexShift BinnedPoints::edit(std::vector<LocalIndex> gone, std::span<const Site
   shift.move(positions_);
   shift.move(boundary_);
   shift.move(pushes_);
+  if (has_leads_)
+    shift.move(leads_);
   new_index.assign(come.size(), -1);
   for (std::size_t k = 0; k < list.size(); ++k) {
     const Site& site = come[at(list[k].number)];
     const std::size_t i = at(shift.come()[k]);
     positions_[i] = site.position;
     boundary_[i] = site.boundary;
+    if (has_leads_)
+      leads_[i] = site.lead;
     pushes_[i] = static_cast<std::uint8_t>(std::min(site.pushes, 255));
     new_index[at(list[k].number)] = shift.come()[k];
   }

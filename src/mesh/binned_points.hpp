@@ -131,7 +131,7 @@ public:
   /// @param come new sites, which lie in the owned tiles
   /// @param new_index receives the local index of each site of `come`; -1 for a site that was dropped because another
   /// site lies at its place
-  /// @pre sites have not moved since they were sorted, and leads are released
+  /// @pre sites have not moved since they were sorted
   IndexShift edit(std::vector<LocalIndex> gone, std::span<const Site> come, std::vector<LocalIndex>& new_index);
   /// Upper bounds on how far sites have moved since they were sorted; searches go farther by these distances.
   const Drifts& drifts() const { return drifts_; }

@@ -149,7 +149,7 @@ void Run::start_first_stage() {
 
 void Run::start_next_stage() {
   stars_.complete(stage_, LemmaReach::up_to_chords);
-  begin(scheme_.next(stage_));
+  begin(scheme_.next(stage_, stars_.is_usual() ? &stars_.builder() : nullptr));
 }
 
 /// Makes the sweeps of the stage, or only its triangles if it needs none.
@@ -295,11 +295,14 @@ bool Run::clean_up() {
     return false;
   stars_.certify(stage_, LemmaReach::up_to_chords);
   const auto time = run_.timers.scope("clean-up");
-  cleanup_ = cleanup::mend(stage_, boundary_.curves(), run_.lattice, stars_.builder(), cleanup_options(run_.options));
+  cleanup::CleanupOptions options = cleanup_options(run_.options);
+  if (scheme_.is_nearly_relaxed())
+    options.bad_alpha = CleanupRules::bad_alpha_of_old;
+  cleanup_ = cleanup::mend(stage_, boundary_.curves(), run_.lattice, stars_.builder(), options);
   run_.log.info("clean-up: {} of {} patches better; {} sites moved, {} inserted, {} deleted; nothing helped at {} "
                 "places with alpha above {}",
                 cleanup_.better, cleanup_.patches, cleanup_.moved, cleanup_.inserted, cleanup_.deleted, cleanup_.left,
-                CleanupRules::bad_alpha);
+                options.bad_alpha);
   return cleanup_.better > 0;
 }
 

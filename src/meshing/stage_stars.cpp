@@ -52,6 +52,10 @@ void StageStars::begin_stage(GlobalId points) {
   set_cap(points < MeshingRules::few_points ? std::numeric_limits<double>::infinity() : MeshingRules::cap);
 }
 
+bool StageStars::is_usual() const {
+  return cap_factor_ == MeshingRules::cap && points_ > 2 * MeshingRules::few_points;
+}
+
 void StageStars::set_cap(double factor) {
   cap_factor_ = factor;
   builder_ = std::make_unique<StarBuilder>(run_.lattice, factor, run_.side());

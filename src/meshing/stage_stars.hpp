@@ -24,6 +24,8 @@ public:
   /// @param points number of points of the stage, over all ranks
   void begin_stage(GlobalId points);
   const delaunay::StarBuilder& builder() const { return *builder_; }
+  /// Returns true if a stage with a few per cent more or fewer points has the same builder.
+  bool is_usual() const;
 
   delaunay::StarPass compute(sites::Stage& stage, sites::Wanted wanted) const;
   /// Certifies the stars of the inner sites. Most of these have not changed in the last moves.

@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace trime::placing {
@@ -58,7 +59,8 @@ public:
     for (int level = part_levels - 1; level >= 0; --level)
       square = square.quarter(static_cast<unsigned>(part) >> (2 * level) & 3U);
     Work work;
-    divide({square, grid_.box_of(square), false, {}}, visit, work);
+    const geometry::Box box = grid_.box_of(square);
+    divide({square, box, false, {}, size_.size(middle(box)), {}}, visit, work);
   }
 
 private:
@@ -76,20 +78,62 @@ private:
     std::size_t first = 0, last = 0;
     double reach = -1;
   };
+  /// The sizes at the middles of the quarters of a part, of their quarters, and so on, as a range of Work::sizes. Each
+  /// quarter has its own size and then the sizes below it.
+  struct SizesBelow {
+    std::size_t first = 0;
+    int levels = 0; ///< of quarters
+    static constexpr std::size_t count(int levels) { return ((std::size_t{4} << (2 * levels)) - 4) / 3; }
+    /// Returns where the size of a quarter is. @pre levels > 0
+    std::size_t place_of(unsigned quarter) const { return first + quarter * (1 + count(levels - 1)); }
+  };
   struct Part {
     CurveSquare square;
     geometry::Box box;
     bool clear; ///< whether a larger part around this one lies inside the shape and does not touch the boundary or the
                 ///< strip along it (PlacingRules::density_strip)
-                // /< PlacingRules::density_strip
     NearChords near; ///< chords near the part that was divided to give this one
+    double size;     ///< at the middle
+    SizesBelow below;
   };
   struct Work {
     std::int64_t cells = 0;
-    double sites = 0; ///< weight in sites of the cells in the container so far
+    double sites = 0;          ///< weight in sites of the cells in the container so far
+    std::vector<double> sizes; ///< a stack: the sizes below a part lie above those of the larger parts around it
     std::vector<LocalIndex>
         chords; ///< a stack: the chords near a part lie above the chords near the larger parts around it
   };
+
+  geometry::Vec2 middle(const geometry::Box& box) const { return lattice_.snap(0.5 * (box.min + box.max)); }
+
+  /// Returns in how many levels below a part with this weight sizes are needed, if h changes little.
+  /// @pre the part is divided
+  int levels_below(const Part& part, double sites) const {
+    const int most = std::min(PlacingRules::most_levels_together, PlacingRules::deepest_cell - part.square.level);
+    int levels = std::clamp(least_level() - part.square.level, 1, most);
+    const double enough = part.clear ? most_inside_ : most_near_;
+    for (double left = std::ldexp(sites, -2 * levels); left > enough && levels < most; left *= 0.25)
+      ++levels;
+    return levels;
+  }
+
+  void list_middles(const CurveSquare& square, int levels, std::vector<geometry::Vec2>& places) const {
+    for (unsigned k = 0; k < 4 && levels > 0; ++k) {
+      places.push_back(middle(grid_.box_of(square.quarter(k))));
+      list_middles(square.quarter(k), levels - 1, places);
+    }
+  }
+
+  /// Asks for the sizes in some levels below a part, all at once.
+  SizesBelow find_sizes(const CurveSquare& square, int levels, Work& work) const {
+    std::vector<geometry::Vec2> places;
+    places.reserve(SizesBelow::count(levels));
+    list_middles(square, levels, places);
+    const std::size_t first = work.sizes.size();
+    work.sizes.resize(first + places.size());
+    size_.sizes(places, std::span(work.sizes).subspan(first));
+    return {first, levels};
+  }
 
   static double half_diagonal(const geometry::Box& box) {
     return 0.5 * std::sqrt(box.width() * box.width() + box.height() * box.height());
@@ -148,8 +192,8 @@ private:
       return;
     const geometry::Box& box = part.box;
     const std::size_t chords_before = work.chords.size();
-    const geometry::Vec2 p = lattice_.snap(0.5 * (box.min + box.max));
-    const double h = size_.size(p);
+    const geometry::Vec2 p = middle(box);
+    const double h = part.size;
     const bool valid = sizing::is_valid_size(h);
     const bool inside = part.clear || guard_.inside(p);
     if (!valid && inside && grid_.container().contains(p))
@@ -169,10 +213,8 @@ private:
       fail_for_small_size(p, h);
     if (part.square.level < PlacingRules::deepest_cell &&
         (part.square.level < least_level() || sites > (clear ? most_inside_ : most_near_))) {
-      for (unsigned k = 0; k < 4; ++k) {
-        const CurveSquare quarter = part.square.quarter(k);
-        divide({quarter, grid_.box_of(quarter), clear, part.near}, visit, work);
-      }
+      part.clear = clear;
+      divide_quarters(part, sites, visit, work);
       return work.chords.resize(chords_before);
     }
     work.chords.resize(chords_before);
@@ -182,6 +224,26 @@ private:
       return;
     work.sites += sites;
     visit(Cell{box, part.square.key, part.square.level, h, std::llround(weight_unit * sites)});
+  }
+
+  template <class Visit>
+  void divide_quarters(const Part& part, double sites, const Visit& visit, Work& work) const {
+    const std::size_t sizes_before = work.sizes.size();
+    const SizesBelow below = part.below.levels == 0 && size_.prefers_blocks()
+                                 ? find_sizes(part.square, levels_below(part, sites), work)
+                                 : part.below;
+    for (unsigned k = 0; k < 4; ++k) {
+      const CurveSquare quarter = part.square.quarter(k);
+      Part its{quarter, grid_.box_of(quarter), part.clear, part.near, 0, {}};
+      if (below.levels > 0) {
+        its.size = work.sizes[below.place_of(k)];
+        its.below = {below.place_of(k) + 1, below.levels - 1};
+      } else {
+        its.size = size_.size(middle(its.box));
+      }
+      divide(its, visit, work);
+    }
+    work.sizes.resize(sizes_before);
   }
 
   [[noreturn]] static void fail_for_small_size(geometry::Vec2 p, double h) {

@@ -5,11 +5,13 @@
 #include "core/angle.hpp"
 #include "core/thread_loop.hpp"
 #include "mesh/tile_grid.hpp"
+#include "sizing/size_blocks.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 
 namespace trime::placing {
 namespace {
@@ -20,6 +22,9 @@ constexpr double weight_of_site = 0x1p20;   // integer weight of one site
 constexpr double largest_weight = 0x1p40;   // of a quarter of a square: sums of all squares stay within 63 bits
 constexpr double most_divided = 4;          // times as many tiles as there were, and some, at most
 constexpr double fewest_when_divided = 256; // tiles
+
+// [tiles] Their sizes are asked for together, if the size prefers blocks.
+constexpr std::ptrdiff_t tiles_together = 1024;
 
 /// A tile and its weight, as ranks send it to each other.
 struct Leaf {
@@ -35,11 +40,23 @@ public:
       : grid_(stage.state->grid()), guard_(*stage.guard), size_(size), lattice_(lattice) {}
 
   const mesh::TileGrid& grid() const { return grid_; }
-  std::int64_t weight(const CurveSquare& square) const {
-    std::int64_t sum = 0;
-    for (unsigned k = 0; k < 4; ++k)
-      sum += weight_by_middle(grid_.box_of(square.quarter(k)));
-    return sum;
+  /// Sets weights[k] to the weight of squares[k].
+  void weigh(std::span<const CurveSquare> squares, std::int64_t* weights) const {
+    std::vector<Quarter> quarters;
+    std::vector<Vec2> middles;
+    for (std::size_t k = 0; k < squares.size(); ++k) {
+      weights[k] = 0;
+      for (unsigned quarter = 0; quarter < 4; ++quarter) {
+        const geometry::Box box = grid_.box_of(squares[k].quarter(quarter));
+        if (const Vec2 p = lattice_.snap(0.5 * (box.min + box.max)); is_in_shape(box, p)) {
+          quarters.push_back({k, box.width() * box.height()});
+          middles.push_back(p);
+        }
+      }
+    }
+    const std::vector<double> sizes = sizing::sizes_at(size_, middles);
+    for (std::size_t k = 0; k < quarters.size(); ++k)
+      weights[quarters[k].square] += weight_of(quarters[k].area, sizes[k]);
   }
   /// Lists a square, or its quarters where it weighs too much.
   void divide(const CurveSquare& square, std::int64_t weight, std::int64_t most, std::vector<Leaf>& leaves) const {
@@ -47,20 +64,28 @@ public:
       leaves.push_back({weight, square.x, square.y, static_cast<std::uint32_t>(square.level)});
       return;
     }
-    for (const CurveSquare& quarter : grid_.quarters(square))
-      divide(quarter, this->weight(quarter), most, leaves);
+    const std::vector<CurveSquare> quarters = grid_.quarters(square);
+    std::vector<std::int64_t> weights(quarters.size());
+    weigh(quarters, weights.data());
+    for (std::size_t k = 0; k < quarters.size(); ++k)
+      divide(quarters[k], weights[k], most, leaves);
   }
 
 private:
-  std::int64_t weight_by_middle(const geometry::Box& box) const {
-    const Vec2 p = lattice_.snap(0.5 * (box.min + box.max));
+  /// A quarter of a square that may have sites.
+  struct Quarter {
+    std::size_t square;
+    double area;
+  };
+  /// May a box with the middle p have sites?
+  bool is_in_shape(const geometry::Box& box, Vec2 p) const {
     const double half = 0.5 * geometry::length(box.max - box.min);
-    if (!grid_.container().contains(p) || (guard_.distance_below(p, half) >= half && !guard_.inside(p)))
-      return 0;
-    const double h = size_.size(p);
-    return sizing::is_valid_size(h) ? std::llround(std::min(largest_weight, weight_of_site * box.width() *
-                                                                                box.height() / (row_height * h * h)))
-                                    : 0;
+    return grid_.container().contains(p) && (guard_.distance_below(p, half) < half || guard_.inside(p));
+  }
+  static std::int64_t weight_of(double area, double h) {
+    return sizing::is_valid_size(h)
+               ? std::llround(std::min(largest_weight, weight_of_site * area / (row_height * h * h)))
+               : 0;
   }
 
   const mesh::TileGrid& grid_;
@@ -86,19 +111,26 @@ void share_by_density(sites::Stage& stage, const sizing::SizeField& size, const 
   const decomposition::Partition even(estimate.grid().tile_count(), comm.size());
   const LocalIndex first = even.first_tile(comm.rank()), tiles = even.last_tile(comm.rank()) - first;
   std::vector<std::int64_t> weights(at(tiles));
-  const auto for_each_tile = [&](const auto& body) {
-    comm::run_agreed(comm, [&] {
-      thread_loop(tiles, 4, [&](std::ptrdiff_t t, int) {
-        body(static_cast<std::size_t>(t), estimate.grid().tile(first + static_cast<LocalIndex>(t)).on_curve());
-      });
+  std::vector<CurveSquare> squares;
+  for (LocalIndex t = 0; t < tiles; ++t)
+    squares.push_back(estimate.grid().tile(first + t).on_curve());
+  const std::ptrdiff_t group = size.prefers_blocks() ? tiles_together : 1;
+  comm::run_agreed(comm, [&] {
+    thread_loop((tiles + group - 1) / group, 4, [&](std::ptrdiff_t k, int) {
+      const std::ptrdiff_t begin = k * group, end = std::min<std::ptrdiff_t>(tiles, begin + group);
+      estimate.weigh(std::span(squares).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin)),
+                     weights.data() + begin);
     });
-  };
-  for_each_tile([&](std::size_t t, const CurveSquare& square) { weights[t] = estimate.weight(square); });
+  });
   const std::int64_t all = comm.sum(std::accumulate(weights.begin(), weights.end(), std::int64_t{0}));
   const std::int64_t most = most_of(static_cast<double>(all), estimate.grid(), grid_coarsening);
   std::vector<std::vector<Leaf>> of_tile(at(tiles));
-  for_each_tile(
-      [&](std::size_t t, const CurveSquare& square) { estimate.divide(square, weights[t], most, of_tile[t]); });
+  comm::run_agreed(comm, [&] {
+    thread_loop(tiles, 4, [&](std::ptrdiff_t k, int) {
+      const auto t = static_cast<std::size_t>(k);
+      estimate.divide(squares[t], weights[t], most, of_tile[t]);
+    });
+  });
   std::vector<Leaf> own;
   for (const std::vector<Leaf>& leaves : of_tile)
     own.insert(own.end(), leaves.begin(), leaves.end());

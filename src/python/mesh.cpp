@@ -147,6 +147,7 @@ void bind_mesh(py::module_& module) {
                              [](const Mesh& mesh) { return py::make_tuple(mesh.periods().x, mesh.periods().y); })
       .def_property_readonly("checks", checks_of)
       .def_property_readonly("quality", quality_of)
+      .def_property_readonly("sweeps", &Mesh::sweeps)
       .def_property_readonly("names", names_of)
       .def("write", write)
       .def("local", local_of)

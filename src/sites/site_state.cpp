@@ -6,6 +6,7 @@
 #include "core/thread_loop.hpp"
 #include "sites/edited_stars.hpp"
 #include "sites/rules.hpp"
+#include "sizing/size_blocks.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
@@ -23,8 +24,7 @@ constexpr int usual_halo_margin = 2;
 constexpr int wide_halo_margin = 3;
 
 constexpr double unknown_size = 0;
-constexpr int size_chunk = 1024;        // sites whose size one thread evaluates in a row
-constexpr LocalIndex size_block = 8192; // sites whose sizes are asked for together, if the size prefers blocks
+constexpr int size_chunk = 1024; // sites whose size one thread evaluates in a row
 
 } // namespace
 
@@ -309,20 +309,17 @@ double SiteState::carried_size(LocalIndex site) const {
 /// Asks for the sizes of a whole block of sites at a time.
 void SiteState::evaluate_blocks(const sizing::SizeField& size, LocalIndex first, LocalIndex end) {
   const std::span<double> values = sizes_.values();
-  thread_loop((end - first + size_block - 1) / size_block, 1, [&](std::ptrdiff_t block, int) {
-    const LocalIndex begin = first + static_cast<LocalIndex>(block) * size_block,
-                     stop = std::min(end, begin + size_block);
+  sizing::loop_over_blocks(size, end - first, [&](std::ptrdiff_t begin, std::ptrdiff_t stop) {
     std::vector<geometry::Vec2> places;
     std::vector<LocalIndex> sites;
-    for (LocalIndex i = begin; i < stop; ++i)
+    for (LocalIndex i = first + static_cast<LocalIndex>(begin); i < first + static_cast<LocalIndex>(stop); ++i)
       if (const double carried = carried_size(i); carried != unknown_size) {
         values[at(i)] = carried;
       } else {
         places.push_back(grid_.periods().wrap(points_.position(i)));
         sites.push_back(i);
       }
-    std::vector<double> found(places.size());
-    size.sizes(places, found);
+    const std::vector<double> found = sizing::sizes_at(size, places);
     for (std::size_t k = 0; k < sites.size(); ++k)
       values[at(sites[k])] = found[k];
   });

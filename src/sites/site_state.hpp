@@ -117,7 +117,7 @@ public:
   /// @param builder the builder that made the certain stars
   /// @param gone local indices of the sites to be removed, ascending, each once
   /// @param sizes target edge length h at each new site
-  /// @pre sites have not moved since they were sorted, leads are released, and h at the owned sites is known
+  /// @pre sites have not moved since they were sorted, and h at the owned sites is known
   void edit_sites(const delaunay::StarBuilder& builder, std::vector<LocalIndex> gone, mesh::SiteList come,
                   std::span<const double> sizes);
 

@@ -7,11 +7,13 @@
 #include "core/random.hpp"
 #include "core/thread_loop.hpp"
 #include "sizing/rules.hpp"
+#include "sizing/size_blocks.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <unordered_map>
@@ -353,22 +355,28 @@ SteepSizes::SteepSizes(const comm::Communicator& comm, const SizeField& relative
   last_row_ = std::min(rows_, static_cast<int>(std::int64_t{rows_} * (comm.rank() + 1) / comm.size()) + 1);
   samples_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(last_row_ - first_row_));
   comm::run_agreed(comm, [this] {
-    thread_loop(last_row_ - first_row_, 1, [this](std::ptrdiff_t row, int) {
-      for (int i = 0; i < columns_; ++i)
-        samples_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(i)] =
-            sample(i, first_row_ + static_cast<int>(row));
+    loop_over_blocks(relative_, std::ssize(samples_), [this](std::ptrdiff_t begin, std::ptrdiff_t end) {
+      const auto first = static_cast<std::size_t>(begin), count = static_cast<std::size_t>(end - begin);
+      std::vector<Vec2> places(count);
+      for (std::size_t k = 0; k < count; ++k) {
+        const std::size_t row = (first + k) / static_cast<std::size_t>(columns_),
+                          column = (first + k) % static_cast<std::size_t>(columns_);
+        samples_[first + k].place = place_in(static_cast<int>(column), first_row_ + static_cast<int>(row));
+        places[k] = boundary_.periods.wrap(samples_[first + k].place);
+      }
+      const std::vector<double> sizes = sizes_at(relative_, places);
+      for (std::size_t k = 0; k < count; ++k)
+        samples_[first + k].relative = sizes[k];
     });
   });
 }
 
-/// Evaluates the field at a random place in a cell.
-SteepSizes::Sample SteepSizes::sample(int i, int j) const {
+/// Returns a random place in a cell.
+Vec2 SteepSizes::place_in(int i, int j) const {
   const std::uint64_t cell =
       static_cast<std::uint64_t>(j) * static_cast<std::uint64_t>(columns_) + static_cast<std::uint64_t>(i);
   const auto random = [&](std::uint64_t slot) { return random_unit(0, RandomPurpose::size_sample, cell, slot); };
-  const Vec2 p{box_.min.x + box_.width() / columns_ * (i + random(0)),
-               box_.min.y + box_.height() / rows_ * (j + random(1))};
-  return {p, relative_.size(boundary_.periods.wrap(p))};
+  return {box_.min.x + box_.width() / columns_ * (i + random(0)), box_.min.y + box_.height() / rows_ * (j + random(1))};
 }
 
 /// The lower sample of a steep pair of neighbours with its steepest partner. Nothing if another neighbour lowers the

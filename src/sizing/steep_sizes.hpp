@@ -67,7 +67,7 @@ private:
     double size;  ///< at `low`
     double slope; ///< growth of the size between both places
   };
-  Sample sample(int i, int j) const;
+  geometry::Vec2 place_in(int i, int j) const;
   std::optional<Seed> seed_at(int i, int j, const ScaledSize& asked, double gradation) const;
   std::vector<Seed> seeds(const ScaledSize& asked, double gradation) const;
   bool inside(geometry::Vec2 p) const;

@@ -2,9 +2,11 @@
 #include "start/density_changes.hpp"
 
 #include "comm/agree.hpp"
+#include "comm/outbox.hpp"
 #include "core/angle.hpp"
 #include "core/thread_loop.hpp"
 #include "sites/fan.hpp"
+#include "sizing/size_blocks.hpp"
 #include "start/refinement.hpp"
 #include "start/rules.hpp"
 #include "trime/core/sum.hpp"
@@ -208,18 +210,16 @@ DensityChanges changes_for_density(const StageView& view, const Stage& next, dou
     });
   });
   DensityChanges made;
-  std::array<std::int64_t, 4> counts{0, 0, 0, points.owned()}; // removed, inserted, starved, all
+  std::int64_t starved = 0;
   for (LocalIndex i = 0; i < points.owned(); ++i) {
-    counts[0] += gone[at(i)];
-    counts[2] += correction * shares[at(i)] > largest_share;
-    if (points.boundary(i) == mesh::free_site && gone[at(i)] == 0)
-      made.sites.push_back({points.position(i)});
+    starved += correction * shares[at(i)] > largest_share;
+    if (gone[at(i)])
+      made.gone.push_back(i);
   }
   for (const std::vector<Vec2>& places : come)
-    for (const Vec2 place : places) {
-      made.sites.push_back({place});
-      ++counts[1];
-    }
+    for (const Vec2 place : places)
+      made.come.push_back({place});
+  std::array<std::int64_t, 4> counts{std::ssize(made.gone), std::ssize(made.come), starved, points.owned()};
   comm.sum(counts);
   made.removed = counts[0];
   made.inserted = counts[1];
@@ -227,6 +227,39 @@ DensityChanges changes_for_density(const StageView& view, const Stage& next, dou
   made.is_finished = static_cast<double>(counts[2]) <= few_starved * sites &&
                      static_cast<double>(made.removed + made.inserted) <= StartRules::small_change * sites;
   return made;
+}
+
+mesh::SiteList sites_after(const sites::SiteState& state, const DensityChanges& changes) {
+  const mesh::BinnedPoints& points = state.points();
+  mesh::SiteList sites;
+  auto gone = changes.gone.begin();
+  for (LocalIndex i = 0; i < points.owned(); ++i)
+    if (gone != changes.gone.end() && *gone == i)
+      ++gone;
+    else if (points.boundary(i) == mesh::free_site)
+      sites.push_back({points.position(i)});
+  sites.insert(sites.end(), changes.come.begin(), changes.come.end());
+  return sites;
+}
+
+void edit_for_density(Stage& stage, DensityChanges changes, const delaunay::StarBuilder& builder) {
+  sites::SiteState& state = *stage.state;
+  comm::Outbox<Vec2> outbox;
+  for (const mesh::Site& site : changes.come)
+    outbox[state.partition().owner(state.grid().place(site.position).tile)].push_back(site.position);
+  std::vector<Vec2> places = std::move(outbox[state.comm().rank()]);
+  outbox.erase(state.comm().rank());
+  for (const comm::Message& message : comm::send(state.comm(), outbox)) {
+    const std::vector<Vec2> of_rank = comm::from_bytes<Vec2>(message.data);
+    places.insert(places.end(), of_rank.begin(), of_rank.end());
+  }
+  std::sort(places.begin(), places.end(), geometry::lexicographically_less);
+  std::vector<double> sizes;
+  comm::run_agreed(state.comm(), [&] { sizes = sizing::checked_sizes_at(*stage.size, places); });
+  mesh::SiteList come;
+  for (const Vec2 place : places)
+    come.push_back({place});
+  state.edit_sites(builder, std::move(changes.gone), std::move(come), sizes);
 }
 
 } // namespace trime::start

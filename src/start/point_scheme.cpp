@@ -339,10 +339,10 @@ Stage PointScheme::last_from(Stage first) {
   return scheme_ == Scheme::insertion ? fit_.lay(1, expected_points()) : std::move(laid_last_);
 }
 
-Stage PointScheme::next(Stage& previous) {
+Stage PointScheme::next(Stage& previous, const delaunay::StarBuilder* builder) {
   ++stage_;
   if (scheme_ == Scheme::old_mesh)
-    return follow_density(std::move(previous));
+    return follow_density(std::move(previous), builder);
   return scheme_ == Scheme::insertion ? insert(previous) : divide(previous);
 }
 
@@ -416,7 +416,7 @@ PointScheme::First PointScheme::first_of_old_mesh() {
 }
 
 /// Thins and refills the sites of a stage of an old mesh.
-Stage PointScheme::follow_density(Stage previous) {
+Stage PointScheme::follow_density(Stage previous, const delaunay::StarBuilder* builder) {
   const comm::Communicator& comm = given_.comm;
   const StageView old = previous.view(given_.lattice);
   const auto time = given_.timers.scope("start");
@@ -426,19 +426,38 @@ Stage PointScheme::follow_density(Stage previous) {
     last_stage_ = stage_;
   else
     last_stage_ = stage_ + 1;
+  if (builder && are_edits(previous, made)) {
+    edit_for_density(previous, std::move(made), *builder);
+    reason_ = changes_.text(*options_.old);
+    return previous;
+  }
+  mesh::SiteList sites = sites_after(*previous.state, made);
   if (given_.options.points && is_last()) {
     const std::int64_t most = std::max<std::int64_t>(0, *given_.options.points - reserve() - previous.placed_first());
-    changes_.removed += trim(comm, previous, most, made.sites);
-    const std::int64_t missing = most - comm.sum(static_cast<std::int64_t>(made.sites.size()));
+    changes_.removed += trim(comm, previous, most, sites);
+    const std::int64_t missing = most - comm.sum(static_cast<std::int64_t>(sites.size()));
     if (shortage_.empty() &&
         static_cast<double>(missing) > small_shortage * static_cast<double>(*given_.options.points))
-      insert_in_triangles(old, previous, missing, made.sites);
+      insert_in_triangles(old, previous, missing, sites);
   }
   reason_ = changes_.text(*options_.old);
-  expected_ = static_cast<double>(comm.sum(static_cast<std::int64_t>(made.sites.size())) + previous.placed_first());
+  expected_ = static_cast<double>(comm.sum(static_cast<std::int64_t>(sites.size())) + previous.placed_first());
   Stage stage = fit_.lay_again(std::move(previous), expected_);
-  fit_.place_sites(stage, std::move(made.sites));
+  fit_.place_sites(stage, std::move(sites));
   return stage;
+}
+
+/// Are the changes so few that the stage can stay as it is laid, and is nothing else to be done? Collective.
+bool PointScheme::are_edits(const Stage& stage, const DensityChanges& made) const {
+  const std::int64_t all = given_.comm.sum(std::int64_t{stage.state->points().owned()});
+  if (static_cast<double>(made.removed + made.inserted) > StartRules::edited_share * static_cast<double>(all) ||
+      !given_.fixed.inside().empty())
+    return false;
+  if (!given_.options.points || !is_last())
+    return true;
+  const std::int64_t missing = *given_.options.points - reserve() - (all - made.removed + made.inserted);
+  return missing >= 0 && (!shortage_.empty() ||
+                          static_cast<double>(missing) <= small_shortage * static_cast<double>(*given_.options.points));
 }
 
 Stage PointScheme::divide(const Stage& previous) {

@@ -19,6 +19,8 @@
 
 namespace trime::start {
 
+struct DensityChanges;
+
 /// The options of the start. MeshOptions explains each option and its default.
 struct StartOptions {
   std::uint64_t seed = 0;
@@ -46,9 +48,10 @@ public:
   /// Collective. @param first the stage that first() has just returned @pre no other stage follows
   sites::Stage last_from(sites::Stage first);
   /// Returns the next stage. Collective.
+  /// @param builder the builder that made the stars of `previous`, if the next stage may keep them; otherwise null
   /// @param previous afterwards without its sites if relaxes() is false
   /// @pre !is_last(), and the stars of all sites of `previous` are certain
-  sites::Stage next(sites::Stage& previous);
+  sites::Stage next(sites::Stage& previous, const delaunay::StarBuilder* builder);
   /// @brief Returns the current stage of a run that continues from a checkpoint, with the same boundary as in the
   /// checkpointed run but without sites. Collective.
   /// @param first the stage that first() returned
@@ -116,7 +119,8 @@ private:
   /// Return the next stage after `previous`.
   sites::Stage divide(const sites::Stage& previous);
   sites::Stage insert(const sites::Stage& previous);
-  sites::Stage follow_density(sites::Stage previous);
+  sites::Stage follow_density(sites::Stage previous, const delaunay::StarBuilder* builder);
+  bool are_edits(const sites::Stage& stage, const DensityChanges& made) const;
 
   const fitting::LayoutContext& given_;
   fitting::Fit fit_;

@@ -6,11 +6,14 @@
 #include "decomposition/selection.hpp"
 #include "placing/density_sampler.hpp"
 #include "placing/rules.hpp"
+#include "sizing/size_blocks.hpp"
 #include "start/rules.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
+#include <span>
 
 namespace trime::start {
 namespace {
@@ -76,6 +79,12 @@ mesh::SiteList place_by_tile(const mesh::BinnedPoints& points, const Make& make)
   return all;
 }
 
+/// Does the boundary of the stage leave room for a site with this size?
+bool is_far_enough(const Stage& stage, Vec2 p, double size) {
+  const double free = placing::PlacingRules::density_strip * size;
+  return stage.guard->distance(p, free) >= free;
+}
+
 /// Keeps the items for which keep[k] is set.
 template <class List>
 void keep_marked(List& items, const std::vector<std::uint8_t>& keep) {
@@ -84,6 +93,20 @@ void keep_marked(List& items, const std::vector<std::uint8_t>& keep) {
     if (keep[k])
       items[kept++] = items[k];
   items.resize(kept);
+}
+
+/// Marks those of the sites for which is_clear returns true.
+void mark_clear(const Stage& next, std::span<const mesh::Site> sites, std::uint8_t* marks) {
+  std::vector<Vec2> inside;
+  for (std::size_t k = 0; k < sites.size(); ++k) {
+    marks[k] = next.guard->inside(sites[k].position);
+    if (marks[k])
+      inside.push_back(sites[k].position);
+  }
+  const std::vector<double> sizes = sizing::checked_sizes_at(*next.size, inside);
+  for (std::size_t k = 0, its = 0; k < sites.size(); ++k)
+    if (marks[k])
+      marks[k] = is_far_enough(next, inside[its], sizes[its]), ++its;
 }
 
 /// A possible new site and its place in the order of urgency.
@@ -103,10 +126,7 @@ std::uint64_t urgency(Vec2 p, Vec2 q, Vec2 r, Vec2 place, const sizing::SizeFiel
 } // namespace
 
 bool is_clear(const Stage& next, Vec2 p) {
-  if (!next.guard->inside(p))
-    return false;
-  const double free = placing::PlacingRules::density_strip * sizing::checked_size(*next.size, p);
-  return next.guard->distance(p, free) >= free;
+  return next.guard->inside(p) && is_far_enough(next, p, sizing::checked_size(*next.size, p));
 }
 
 mesh::SiteList inner_sites(const SiteState& state) {
@@ -164,9 +184,9 @@ void insert_in_triangles(const StageView& view, const Stage& next, std::int64_t 
 void clear_strip(const Stage& next, mesh::SiteList& sites) {
   std::vector<std::uint8_t> keep(sites.size());
   comm::run_agreed(next.state->comm(), [&] {
-    thread_loop(static_cast<std::ptrdiff_t>(sites.size()), 256, [&](std::ptrdiff_t k, int) {
-      const std::size_t at = static_cast<std::size_t>(k);
-      keep[at] = is_clear(next, sites[at].position);
+    sizing::loop_over_blocks(*next.size, std::ssize(sites), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+      mark_clear(next, std::span(sites).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin)),
+                 keep.data() + begin);
     });
   });
   keep_marked(sites, keep);
@@ -178,11 +198,16 @@ std::int64_t trim(const comm::Communicator& comm, const Stage& next, std::int64_
     return 0;
   std::vector<std::uint64_t> keys(sites.size());
   comm::run_agreed(comm, [&] {
-    thread_loop(static_cast<std::ptrdiff_t>(sites.size()), 256, [&](std::ptrdiff_t k, int) {
-      const std::size_t at = static_cast<std::size_t>(k);
-      const Vec2 p = sites[at].position;
-      const double h = sizing::checked_size(*next.size, p);
-      keys[at] = selection_key(next.guard->distance(p, farthest_from_boundary * h) / (farthest_from_boundary * h), p);
+    sizing::loop_over_blocks(*next.size, std::ssize(sites), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+      std::vector<Vec2> places;
+      for (std::ptrdiff_t k = begin; k < end; ++k)
+        places.push_back(sites[static_cast<std::size_t>(k)].position);
+      const std::vector<double> sizes = sizing::checked_sizes_at(*next.size, places);
+      for (std::size_t k = 0; k < places.size(); ++k) {
+        const double reach = farthest_from_boundary * sizes[k];
+        keys[static_cast<std::size_t>(begin) + k] =
+            selection_key(next.guard->distance(places[k], reach) / reach, places[k]);
+      }
     });
   });
   const std::uint64_t threshold = selection_threshold(comm, keys, excess);

@@ -23,6 +23,9 @@ struct StartRules {
   /// [1] A mesh from an old mesh begins with the last update rule if at most this share of its sites was taken out or
   /// put in; otherwise with the first one, as a new mesh does. Not measured.
   static constexpr double small_change = 0.25;
+  /// [1] If at most this share of the sites of an old mesh is taken out or put in, the tiles stay as they are, and only
+  /// the stars near changes are computed again. Not measured.
+  static constexpr double edited_share = 0.1;
   /// [1] The scheme coarse to fine samples the density in cells that are wider by this factor. The mesh was as good as
   /// with 1.
   static constexpr double coarse_start = 2;

@@ -21,6 +21,14 @@ def holes(p):
     return 1 + 3 * p[:, 0] * p[:, 0] + p[:, 1]
 
 
+def smooth_size(calls):
+    """A size of exponentials and roots, whose calls are listed: NumPy computes them by vector instructions."""
+    def size(p):
+        calls.append(len(p))
+        return 0.2 + np.exp(-np.hypot(p[:, 0] - 0.3, p[:, 1])) + 0.1 * np.sin(3 * p[:, 0])**2
+    return size
+
+
 def agreed(condition):
     """Is it true on all ranks?"""
     return bool(comm.allreduce(bool(condition), MPI.LAND))
@@ -163,6 +171,9 @@ def main(directory):
     found["formula"] = parallel.mesh(comm, PLATE, points=2000, size="1 + 3*x*x + y").hash
     graded = parallel.mesh(comm, PLATE, points=2000, size=holes)
     found["callable"] = graded.hash
+    calls = []
+    found["smooth"] = parallel.mesh(comm, PLATE, points=20000, size=smooth_size(calls)).hash
+    found["calls"], found["places"] = comm.allreduce(len(calls)), comm.allreduce(sum(calls))
     found["checks"] = all(check.passed for check in graded.checks) and graded.quality["alpha_median"] < 1.1
     found["automatic"] = parallel.mesh(comm, PLATE, points=2000, size=parallel.automatic(0.1)).hash
     graded.write(directory / f"graded{comm.size}.h5")

@@ -62,7 +62,7 @@ class Parallel(WorkspaceCase):
         expected = {"uniform": self.hash_of_program(""),
                     "automatic": self.hash_of_program("[sizing]\ntype = automatic\n"),
                     "formula": self.hash_of_program("[sizing]\ntype = expression\nexpression = 1 + 3*x*x + y\n")}
-        started = set()
+        started, smooth = set(), set()
         for ranks in (1, 2, 3):
             found = json.loads(python(ROOT / "tests" / "system" / "python_parallel_ranks.py", self.directory,
                                       ranks=ranks).splitlines()[-1])
@@ -71,12 +71,15 @@ class Parallel(WorkspaceCase):
             self.assertEqual([found["callable"], found["read"]], 2 * [expected["formula"]])
             self.assertEqual([name for name, holds in found["arrays"].items() if not holds], [])
             self.assertTrue(found["checks"] and found["meshio"])
+            smooth.add(found["smooth"])
+            self.assertLess(found["calls"], 20000)  # one a point, where each place alone would take many
+            self.assertGreater(found["places"], 200000)
             started.update(found["start"])
             self.assertLess(found["start_alpha"], 1.3)
             self.check_errors(found)
             if ranks == 2:
                 self.check_poisson(*found["poisson"])
-        self.assertEqual(len(started), 1, started)
+        self.assertEqual((len(started), len(smooth)), (1, 1), (started, smooth))
 
     def check_poisson(self, coarse, fine):
         order = math.log2(coarse["error"] / fine["error"])  # from 1000 to 4000 points h is halved
@@ -99,6 +102,18 @@ class Parallel(WorkspaceCase):
             # Once the mesh is adapted, the order is that of linear elements, despite the corner.
             levels = [estimate * math.sqrt(points) for points, estimate in found[2:]]
             self.assertLess(max(levels) / min(levels), 1.15, found)
+
+    def test_a_disc_moves_through_a_channel(self):
+        found = [re.findall(r"step (\d+): (\d+) points, (\d+) sweeps, largest alpha ([\d.]+), .* hash (\w+)",
+                            python(ROOT / "src" / "examples" / "moving_disc.py", 3, 3000, ranks=ranks))
+                 for ranks in (1, 2)]
+        self.assertEqual(found[0], found[1])
+        first, *steps = found[0]
+        self.assertEqual(len(steps), 3)
+        for step, points, sweeps, alpha, _ in steps:
+            self.assertLessEqual(3 * int(sweeps), int(first[2]), step)
+            self.assertLess(float(alpha), 1.2, step)
+            self.assertAlmostEqual(int(points) / int(first[1]), 1, delta=0.02)
 
 
 if __name__ == "__main__":

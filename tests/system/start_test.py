@@ -21,15 +21,36 @@ geometry = difference(domain, disc)
 [meshing]
 {meshing}
 """
+# Case 24: a disc of two materials.
+CORE = """[domain]
+x_max = 1
+y_max = 1
+[shape.disc]
+type = circle
+center = 0.5 0.5
+radius = 0.4
+[shape.inner]
+type = circle
+center = 0.5 0.5
+radius = 0.2
+[shape]
+geometry = disc
+[region.core]
+geometry = inner
+[region.rest]
+geometry = difference(disc, inner)
+[meshing]
+points = {points}
+"""
 STEP = 0.03  # an edge
 USAGE, STOPPED = 2, 75  # exit codes
 
 
 class Start(WorkspaceCase):
-    def mesh(self, name, x=0.5, meshing=f"edge_length = {STEP}", extra=(), ranks=1):
-        """Makes a mesh of the channel, and returns the finished run."""
+    def mesh(self, name, x=0.5, meshing=f"edge_length = {STEP}", extra=(), ranks=1, text=None):
+        """Makes a mesh of the channel, or of another config, and returns the finished run."""
         config = self.directory / f"{name}.ini"
-        config.write_text(CHANNEL.format(x=x, meshing=meshing))
+        config.write_text(text or CHANNEL.format(x=x, meshing=meshing))
         return run(config, f"output.directory={self.directory}", f"output.name={name}", "output.overwrite=true", *extra,
                    ranks=ranks)
 
@@ -67,10 +88,24 @@ class Start(WorkspaceCase):
                 self.assertGreater(found[0]["points"], 0.98 * wanted, name)
 
     def test_same_config_takes_few_sweeps(self):
-        first = self.made("first")
-        again = self.made("again", extra=["meshing.start=first.h5"])
-        self.assertLessEqual(again["sweeps"], first["sweeps"] / 2)
-        self.assertLessEqual(again["alpha"], first["alpha"] + 0.02)
+        for points in (1000, 2000):
+            text = CORE.format(points=points)
+            first = self.made("first", text=text)
+            again = [self.made(f"again{ranks}", text=text, extra=["meshing.start=first.h5"], ranks=ranks)
+                     for ranks in (1, 2, 3, 7)]
+            self.assertEqual(len({made["hash"] for made in again}), 1)
+            self.assertLessEqual(4 * again[0]["sweeps"], first["sweeps"])
+            self.assertLessEqual(again[0]["alpha"], first["alpha"] + 0.02)
+            self.assertLessEqual(again[0]["points"], points)
+            self.assertGreater(again[0]["points"], 0.98 * points)
+
+    def test_few_changes_leave_the_other_triangles_in_place(self):
+        graded = "points = 6000\n[sizing]\ntype = expression\nexpression = min(3, 1 + 5*dist(disc))"
+        self.made("old", meshing=graded)
+        found = [self.made(f"new{ranks}", x=0.51, meshing=graded, extra=["meshing.start=old.h5"], ranks=ranks)
+                 for ranks in (1, 2, 4)]
+        self.assertEqual(len({made["hash"] for made in found}), 1)
+        self.assertLess(found[0]["alpha"], 1.2)
 
     def test_restarts_after_each_sweep(self):
         self.made("old")

@@ -188,6 +188,8 @@ public:
   const mesh::QualitySummary& quality() const;
   /// Returns the hash of points and triangles, which is the same for any number of ranks and threads.
   std::uint64_t hash() const;
+  /// Returns how often the points were moved; 0 for a mesh that was read from a file.
+  int sweeps() const;
 
   /// Returns the periods of the container; 0 in a direction in which it is not periodic.
   geometry::Vec2 periods() const;

@@ -163,6 +163,8 @@ class Mesh:
     owned_points, owned_triangles, owned_facets, owned_curve_edges and owned_interfaces count what this rank owns.
     first_point is the global id of the first point. total_points and total_triangles count over all ranks.
 
+    `sweeps` says how often the points were moved, 0 for a mesh that was read.
+
     The pair `periods` has the periods of the container, 0 where it is not periodic. Triangles across its border have
     points on both sides. Facets on a split curve have the number of parts plus that of the curve in facet_parts;
     facets_of finds them by the name of the curve.
@@ -171,7 +173,7 @@ class Mesh:
     def __init__(self, native, comm):
         self._native, self._local, self.comm = native, native.local(), comm
         self.hash, self.certified, self.quality = native.hash, native.certified, native.quality
-        self.periods = native.periods
+        self.periods, self.sweeps = native.periods, native.sweeps
         self.checks = [Check(*row) for row in native.checks]
         for kind, names in native.names.items():
             setattr(self, {"facets": "facet", "regions": "region", "curves": "curve", "interfaces": "interface",
