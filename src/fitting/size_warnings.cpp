@@ -86,9 +86,13 @@ void warn_of_fine_features(const Stage& stage, bool has_least_size, Log& log) {
   double least = warned_chord, length = 0, size = 0; // chord over local size
   geometry::Vec2 place;
   std::size_t count = 0;
+  std::vector<geometry::Vec2> starts;
+  for (std::size_t k = 0; k < sites.size(); ++k)
+    starts.push_back(stage.polygon.chord(static_cast<LocalIndex>(k)).a);
+  const std::vector<double> sizes = sizing::sizes_at(*stage.size, starts);
   for (std::size_t k = 0; k < sites.size(); ++k) {
     const geometry::Segment chord = stage.polygon.chord(static_cast<LocalIndex>(k));
-    const double its_length = geometry::length(chord.b - chord.a), h = stage.size->size(chord.a);
+    const double its_length = geometry::length(chord.b - chord.a), h = sizes[k];
     count += its_length < warned_chord * h ? 1 : 0;
     if (its_length < least * h) {
       least = its_length / h;
