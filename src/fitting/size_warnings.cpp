@@ -28,7 +28,7 @@ void warn_of_steep_sizes(const Stage& stage, const geometry::Boundary& boundary,
     return;
   const geometry::Box box = boundary.bounding_box();
   const geometry::Vec2 stride{box.width() / per_side, box.height() / per_side};
-  std::vector<geometry::Vec2> places; // always two, of which the second lies beside the first
+  std::vector<geometry::Vec2> places; // pairs of neighbours
   const auto look = [&](geometry::Vec2 p, geometry::Vec2 to_next) {
     if (stage.guard->inside(lattice.snap(p)) && stage.guard->inside(lattice.snap(p + to_next)))
       places.insert(places.end(), {p, p + to_next});
