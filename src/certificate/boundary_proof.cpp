@@ -7,6 +7,7 @@
 #include "core/thread_loop.hpp"
 #include "polygon/chord_curve.hpp"
 #include "sizing/lowered_size.hpp"
+#include "sizing/size_blocks.hpp"
 #include "trime/geometry/piece_tree.hpp"
 
 #include <algorithm>
@@ -104,12 +105,33 @@ private:
     const Share share(truth_.sites.sites.size(), comm_);
     const auto first = static_cast<LocalIndex>(share.begin), last = static_cast<LocalIndex>(share.end);
     const std::vector<ChordCurve> chords = polygon::compare_chords(truth_.meshed, truth_.sites, first, last);
-    thread_loop(last - first, 256, [&](std::ptrdiff_t k, int thread) {
-      const LocalIndex site = first + static_cast<LocalIndex>(k);
+    const std::vector<double> sizes = sizes_of_chords(truth_.size, first, last),
+                              asked = sizes_of_chords(truth_.asked, first, last);
+    thread_loop(last - first, 256, [&](std::ptrdiff_t item, int thread) {
+      const auto k = static_cast<std::size_t>(item);
+      const LocalIndex site = first + static_cast<LocalIndex>(item);
       Findings& found = of_thread_[thread];
       found.corners += is_vertex(truth_.sites.sites[at(site)], loop_of(site));
-      add_chord(site, chords[static_cast<std::size_t>(k)], found);
+      add_chord(site, chords[k], {sizes[k], asked[k]}, found);
     });
+  }
+
+  /// Returns the mean of the sizes at the ends of each chord.
+  std::vector<double> sizes_of_chords(const sizing::SizeField& size, LocalIndex first, LocalIndex last) const {
+    std::vector<double> means(at(last - first));
+    sizing::loop_over_blocks(size, last - first, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+      std::vector<Vec2> ends;
+      for (LocalIndex k = first + static_cast<LocalIndex>(begin); k < first + static_cast<LocalIndex>(end); ++k) {
+        ends.push_back(truth_.sites.chord(k).a);
+        ends.push_back(truth_.sites.sites[at(truth_.sites.sites[at(k)].next)].position);
+      }
+      const std::vector<double> sizes = sizing::sizes_at(size, ends);
+      for (std::ptrdiff_t k = begin; k < end; ++k) {
+        const auto its = static_cast<std::size_t>(2 * (k - begin));
+        means[static_cast<std::size_t>(k)] = 0.5 * (sizes[its] + sizes[its + 1]);
+      }
+    });
+    return means;
   }
 
   const geometry::Loop& loop_of(LocalIndex site) const {
@@ -123,17 +145,19 @@ private:
            site.position == truth_.meshed.periods.wrap(loop.pieces[at(site.piece)].start);
   }
 
-  void add_chord(LocalIndex site, const ChordCurve& curve, Findings& found) const {
+  /// The size at a chord, and the one that was asked for.
+  struct ChordSizes {
+    double h, asked;
+  };
+
+  void add_chord(LocalIndex site, const ChordCurve& curve, const ChordSizes& sizes, Findings& found) const {
     const geometry::Segment chord = truth_.sites.chord(site);
-    const BoundarySite& next = truth_.sites.sites[at(truth_.sites.sites[at(site)].next)];
-    const double h = 0.5 * (truth_.size.size(chord.a) + truth_.size.size(next.position));
     const double sagitta = squared_length(chord.b - chord.a) * curve.curvature / 8;
-    const double asked = 0.5 * (truth_.asked.size(chord.a) + truth_.asked.size(next.position));
     found.distance = std::max(found.distance, curve.offset);
-    found.deviation = std::max(found.deviation, curve.deviation / asked);
+    found.deviation = std::max(found.deviation, curve.deviation / sizes.asked);
     if (curve.curvature > 0)
       found.of_arcs = std::max(found.of_arcs, curve.deviation / (CertificateRules::arc_tolerance * sagitta +
-                                                                 CertificateRules::arc_slack * h));
+                                                                 CertificateRules::arc_slack * sizes.h));
     found.area.add(curve.area, truth_.lattice);
   }
 

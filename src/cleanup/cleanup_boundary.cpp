@@ -2,10 +2,12 @@
 #include "cleanup/cleanup_boundary.hpp"
 
 #include "comm/agree.hpp"
-#include "core/thread_loop.hpp"
+#include "sizing/size_blocks.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
+#include <vector>
 
 namespace trime::cleanup {
 namespace {
@@ -14,8 +16,6 @@ using polygon::BoundaryChain;
 using polygon::BoundaryEdit;
 using polygon::BoundarySites;
 using polygon::EditKind;
-
-constexpr int sites_in_a_row = 256; // by one thread
 
 } // namespace
 
@@ -27,9 +27,13 @@ CleanupBoundary::CleanupBoundary(const comm::Communicator& comm, const geometry:
   tolerances_.resize(sites.sites.size(), 0);
   if (tolerance > 0)
     comm::run_agreed(comm, [&] {
-      thread_loop(std::ssize(tolerances_), sites_in_a_row, [&](std::ptrdiff_t item, int) {
-        const auto k = static_cast<std::size_t>(item);
-        tolerances_[k] = this->tolerance(sites.sites[k].position);
+      sizing::loop_over_blocks(size_, std::ssize(tolerances_), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        std::vector<geometry::Vec2> places;
+        for (std::ptrdiff_t k = begin; k < end; ++k)
+          places.push_back(sites.sites[static_cast<std::size_t>(k)].position);
+        const std::vector<double> sizes = sizing::sizes_at(size_, places);
+        for (std::size_t k = 0; k < places.size(); ++k)
+          tolerances_[static_cast<std::size_t>(begin) + k] = tolerance_ * sizes[k];
       });
     });
 }

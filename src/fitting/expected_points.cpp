@@ -6,10 +6,12 @@
 #include "fitting/count_estimate.hpp"
 #include "fitting/points_of_length.hpp"
 #include "fitting/rules.hpp"
+#include "sizing/size_blocks.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace trime::fitting {
 namespace {
@@ -33,18 +35,19 @@ constexpr double most_points = 1e11;
 double guessed_points(const LayoutContext& context) {
   const sizing::ScaledSize size = context.asked_size(1);
   const geometry::Box box = context.given_boundary.bounding_box();
+  std::vector<geometry::Vec2> places;
+  for (int j = 0; j < samples_per_side; ++j)
+    for (int i = 0; i < samples_per_side; ++i)
+      places.push_back(context.given_boundary.periods.wrap({box.min.x + box.width() * (i + 0.5) / samples_per_side,
+                                                            box.min.y + box.height() * (j + 0.5) / samples_per_side}));
   double density = 0;
   int count = 0;
-  for (int j = 0; j < samples_per_side; ++j)
-    for (int i = 0; i < samples_per_side; ++i) {
-      const geometry::Vec2 p{box.min.x + box.width() * (i + 0.5) / samples_per_side,
-                             box.min.y + box.height() * (j + 0.5) / samples_per_side};
-      const double h = size.size(context.given_boundary.periods.wrap(p));
-      if (!sizing::is_valid_size(h))
-        continue;
-      density += 1 / (row_height * h * h);
-      ++count;
-    }
+  for (const double h : sizing::sizes_at(size, places)) {
+    if (!sizing::is_valid_size(h))
+      continue;
+    density += 1 / (row_height * h * h);
+    ++count;
+  }
   return std::clamp(context.given_boundary.area * density / std::max(1, count), 3.0, most_points);
 }
 

@@ -28,7 +28,7 @@ void warn_of_steep_sizes(const Stage& stage, const geometry::Boundary& boundary,
     return;
   const geometry::Box box = boundary.bounding_box();
   const geometry::Vec2 stride{box.width() / per_side, box.height() / per_side};
-  std::vector<geometry::Vec2> places; // always two, of which the second lies beside the first
+  std::vector<geometry::Vec2> places; // pairs of neighbours
   const auto look = [&](geometry::Vec2 p, geometry::Vec2 to_next) {
     if (stage.guard->inside(lattice.snap(p)) && stage.guard->inside(lattice.snap(p + to_next)))
       places.insert(places.end(), {p, p + to_next});
@@ -86,9 +86,13 @@ void warn_of_fine_features(const Stage& stage, bool has_least_size, Log& log) {
   double least = warned_chord, length = 0, size = 0; // chord over local size
   geometry::Vec2 place;
   std::size_t count = 0;
+  std::vector<geometry::Vec2> starts;
+  for (std::size_t k = 0; k < sites.size(); ++k)
+    starts.push_back(stage.polygon.chord(static_cast<LocalIndex>(k)).a);
+  const std::vector<double> sizes = sizing::sizes_at(*stage.size, starts);
   for (std::size_t k = 0; k < sites.size(); ++k) {
     const geometry::Segment chord = stage.polygon.chord(static_cast<LocalIndex>(k));
-    const double its_length = geometry::length(chord.b - chord.a), h = stage.size->size(chord.a);
+    const double its_length = geometry::length(chord.b - chord.a), h = sizes[k];
     count += its_length < warned_chord * h ? 1 : 0;
     if (its_length < least * h) {
       least = its_length / h;

@@ -82,7 +82,7 @@ private:
   /// quarter has its own size and then the sizes below it.
   struct SizesBelow {
     std::size_t first = 0;
-    int levels = 0; ///< of quarters
+    int levels = 0; ///< number of levels of quarters
     static constexpr std::size_t count(int levels) { return ((std::size_t{4} << (2 * levels)) - 4) / 3; }
     /// Returns where the size of a quarter is. @pre levels > 0
     std::size_t place_of(unsigned quarter) const { return first + quarter * (1 + count(levels - 1)); }

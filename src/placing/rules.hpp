@@ -36,8 +36,8 @@ struct PlacingRules {
   /// [chords] Largest number of boundary edges that are listed as near to a cell of the density. If more are near, all
   /// boundary edges are searched.
   static constexpr std::size_t most_near_chords = 48;
-  /// [levels] If a size prefers blocks, the sizes in so many levels of cells of the density are asked for at once:
-  /// those of 5460 cells. Not measured.
+  /// [levels] If a size prefers blocks, the sizes in at most this number of levels of cells of the density are asked
+  /// for at once: those of up to 5460 cells. Not measured.
   static constexpr int most_levels_together = 6;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Asks a size field for many places at a time, because one call of a size in an interpreter takes as long as some
-// hundred places.
+// Asks a size field for many places at a time, because one call of a size in an interpreter takes as long as
+// several hundred places.
 #pragma once
 
 #include "core/thread_loop.hpp"
@@ -13,7 +13,7 @@
 
 namespace trime::sizing {
 
-/// [places] A thread asks for so many sizes together, if the size prefers blocks.
+/// [places] Number of sizes for which a thread asks together, if the size prefers blocks.
 inline constexpr std::ptrdiff_t places_in_block = 8192;
 /// [places] The same for other sizes: small enough to share the work among threads.
 inline constexpr std::ptrdiff_t places_in_chunk = 256;

@@ -25,8 +25,8 @@ public:
   virtual void sizes(std::span<const geometry::Vec2> places, std::span<double> values) const;
   /// Returns true if one call of sizes is much faster than many calls of size, as for a function of an interpreter.
   /// Then the mesher calls sizes for up to 8192 places at a time wherever their number grows with that of the sites: in
-  /// integrals of the density, in sweeps, and when it measures the quality. Along the boundary and in the clean-up it
-  /// still calls size for each place.
+  /// integrals of the density, in sweeps, and when it measures the quality. When it places sites on the boundary and in
+  /// the clean-up, it still calls size for each place.
   virtual bool prefers_blocks() const { return false; }
   /// Returns true if the size is the same everywhere. Then a run can start from a hexagonal lattice.
   virtual bool is_uniform() const { return false; }
