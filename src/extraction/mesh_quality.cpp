@@ -281,7 +281,8 @@ void QualityMeter::add_edge(Vec2 p, Vec2 q, double size_at_p, double size_at_mid
 
 void QualityMeter::finish() {
   measure_triangles();
-  add_waiting_edges();
+  if (!waiting_.empty()) // without them there may be no size, as for a refined mesh
+    add_waiting_edges();
   measure_edges();
 }
 

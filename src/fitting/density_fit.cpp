@@ -252,7 +252,7 @@ private:
     return std::fmax(trial.fitted.factor, trial.fitted.curves.factor) > coarsest();
   }
 
-  /// What the plain factor takes.
+  /// Returns how many points the plain factor takes.
   TooFewPoints too_few_plainly() {
     const SizeTrial needed = SizeTrials(context_, points_, trials_.coarsening()).run(plain_);
     Fewest fewest;

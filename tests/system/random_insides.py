@@ -19,7 +19,7 @@ class RandomInsides:
             self.rest["rest"] = "matrix"
 
     def part(self, name):
-        """A part of its own for a region: something that may reach beyond the shape."""
+        """A separate part for a region, which may reach beyond the shape."""
         rng = self.rng
         kind = rng.choice(["circle", "rectangle", "triangle", "layer"])
         low, high = self.place(rng.uniform(-0.1, 0.6), rng.uniform(-0.1, 0.6)), self.place(1, 1)
