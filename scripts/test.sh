@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Runs every test: installs what is missing (Debian 12), then format, layers, a release build with all its tests, the
-# parallel tests with a second MPI, MPICH, and the serial tests and fuzz targets under sanitizers, which
-# compiles library and unit tests with a second compiler, clang.
+# parallel tests with a second MPI, MPICH, and the serial tests and fuzz targets under the sanitizers of
+# a second compiler, clang.
 #   scripts/test.sh [--quick]      --quick: without second MPI, sanitizers and second compiler
 # The last line says how many tests passed and failed. Environment: TRIME_JOBS (cores), TRIME_NO_INSTALL=1,
 # TRIME_FULL_TABLE=1 (equal meshes on 1 to 16 ranks in all combinations), TRIME_FUZZ_SECONDS (of each fuzz target),

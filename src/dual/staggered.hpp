@@ -22,6 +22,7 @@ struct RingEdge {
   bool is_first; ///< this cell is the first one of the edge, so the normal of the edge points away from it
 };
 
+/// The numbers of cells, edges and vertices, and the rings of edges around cells, on the ranks of the Voronoi cells.
 class StaggeredGrid {
 public:
   /// Numbers all parts of the grid. The numbers do not depend on the number of ranks.

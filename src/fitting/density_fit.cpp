@@ -236,9 +236,9 @@ private:
     return finer.best.points > best.points ? std::move(finer.best) : std::move(best);
   }
 
-  /// @brief The factor without regard to narrow places inside. They may take nearly all points; the triangles elsewhere
-  /// would then be large, and regions that the user gave would be simplified away. So there are too few points where
-  /// the factor would be much larger than this one.
+  /// @brief Returns the factor without regard to narrow places inside. Collective. They may take nearly all points; the
+  /// triangles elsewhere would then be large, and regions that the user gave would be simplified away. So there are too
+  /// few points where the factor would be much larger than this one.
   /// @param factor with which the size is nowhere smaller than a uniform one
   double plain_factor(double uniform, double factor) {
     CountEstimate estimate(context_, points_, FitRules::reference_spacing * uniform,
@@ -252,7 +252,7 @@ private:
     return std::fmax(trial.fitted.factor, trial.fitted.curves.factor) > coarsest();
   }
 
-  /// Returns how many points the plain factor takes.
+  /// Returns how many points the plain factor takes. Collective.
   TooFewPoints too_few_plainly() {
     const SizeTrial needed = SizeTrials(context_, points_, trials_.coarsening()).run(plain_);
     Fewest fewest;

@@ -31,10 +31,12 @@ constexpr std::size_t most_edges = 4;
 // [1] Two curves that meet follow each other if their distance is below this share of the way along them from one to
 // the other: they then meet at less than about 20 degrees. Not measured.
 constexpr double narrow_share = 0.35;
-// Of a search along curves with very many vertices, or with very many nodes; curves beyond stay apart.
+// A search along curves ends after this number of vertices, or of nodes among them. Edges that it has not reached by
+// then do not become one line with the curve.
 constexpr std::size_t most_steps = 1000, most_nodes = 16;
 
-/// The lengths of short ways along the edges of a net from a vertex to others. Cost: that of the vertices on them.
+/// The lengths of short ways along the edges of a net from a vertex to others. Takes O(n log n) time for n vertices on
+/// the ways; n is bounded by most_steps and most_nodes.
 class ShortWays {
 public:
   /// @param longest of the ways
