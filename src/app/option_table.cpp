@@ -324,8 +324,8 @@ const Option table[] = {
      .kind = OptionKind::text,
      .fallback = "none",
      .meaning =
-         "lengths of the edges on parts of the boundary, such as `coast 200, open sea 2000`; from there the size "
-         "grows by `gradation` per length; needs `scale = absolute`"},
+         "lengths of the edges on parts of the boundary, on curves and at fixed points, such as `coast 200, river 50, "
+         "fixed_points 20`; from there the size grows by `gradation` per length; needs `scale = absolute`"},
     {.section = "sizing",
      .key = "min_size",
      .fallback = "none",

@@ -98,10 +98,7 @@ std::string advice_on_names(const RunOptions& options) {
 
 /// @throws ConfigError on all ranks if size_at has a name that no part of the boundary and no curve has
 void check_names(const RunOptions& options, const geometry::Domain& domain) {
-  std::vector<std::string> names = domain.boundary().part_names;
-  names.insert(names.end(), domain.curves().names.begin(), domain.curves().names.end());
-  for (std::size_t pair = 0; pair < domain.regions().pairs.size(); ++pair)
-    names.push_back(domain.regions().pair_name(pair));
+  const std::vector<std::string> names = sizing::curve_names(domain);
   try {
     for (const sizing::NamedSize& named : options.sizing.size_at)
       sizing::parts_named(named.name, names);

@@ -4,7 +4,7 @@
 // faces are perpendicular to the lines between sites. Vertices at one place are merged. A second file has the number of
 // the region of each cell.
 #include "dual/merged.hpp"
-#include "formats/flow_cells.hpp"
+#include "formats/named_cells.hpp"
 #include "formats/solver_names.hpp"
 #include "trime/core/error.hpp"
 
@@ -51,6 +51,12 @@ std::string head_of(const ExchangeMesh& mesh, const char* what, GlobalId cells, 
                             cells, vertices);
 }
 
+/// The grid, the region of each cell, and the cells along named lines.
+std::vector<FilePlan> disv_files(const FlowCells& cells, FilePlan grid, const io::TextRows& zones) {
+  const std::vector<std::string> paths = paths_of(Format::disv, grid.path, cells.mesh()->mesh().names());
+  return {cells.proved(std::move(grid)), {paths[1], {zones}}, plan_named_cells(cells, paths[2], append_cell_number)};
+}
+
 /// Triangles with their circumcentres as centres; the vertices are the points.
 std::vector<FilePlan> plan_disv_triangles(const ExchangeMesh& mesh, const std::string& path) {
   const FlowCells cells(mesh);
@@ -73,11 +79,12 @@ std::vector<FilePlan> plan_disv_triangles(const ExchangeMesh& mesh, const std::s
       mesh.once("END CELL2D\n")};
   const auto zones =
       cells.cell_rows([](const FlowCell& cell, std::string& to) { append_line(to, std::int64_t{cell.region}); });
-  return {cells.proved({path, rows}), {paths_of(Format::disv, path, mesh.names())[1], {zones}}};
+  return disv_files(cells, {path, rows}, zones);
 }
 
 std::vector<FilePlan> plan_disv_voronoi(const ExchangeMesh& mesh, const std::string& path) {
-  const auto cells = std::make_shared<const CellMesh>(mesh);
+  const FlowCells all(mesh);
+  const std::shared_ptr<const CellMesh>& cells = all.mesh();
   if (cells->facts().most_corners > most_disv_vertices) // all ranks find the same
     throw FileError(fmt::format("a Voronoi cell has {} vertices; expected at most {}, as MODFLOW 6 allows; make the "
                                 "triangles more equal, for example with a smaller gradation of the size",
@@ -98,7 +105,7 @@ std::vector<FilePlan> plan_disv_voronoi(const ExchangeMesh& mesh, const std::str
   const auto zones = site_rows(cells, [](LocalIndex, const Surroundings& around, std::string& to) {
     append_line(to, std::int64_t{dual::whole_cell(around).region});
   });
-  return {cells->proved({path, rows}), {paths_of(Format::disv, path, mesh.names())[1], {zones}}};
+  return disv_files(all, {path, rows}, zones);
 }
 
 } // namespace

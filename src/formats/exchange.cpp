@@ -130,6 +130,8 @@ std::vector<std::string> paths_of(Format format, const std::string& path, const 
   if (format == Format::uge)
     for (const std::string& part : solver_names(names.parts))
       paths.push_back(stem + "_" + part + ".ex");
+  if (format == Format::disv || format == Format::uge || format == Format::tough)
+    paths.push_back(fmt::format("{}_{}.csv", stem, info_of(format).word));
   return paths;
 }
 

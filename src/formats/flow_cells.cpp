@@ -32,7 +32,6 @@ double least_cosine_of(Vec2 b, Vec2 c) {
 
 FlowCells::FlowCells(const ExchangeMesh& mesh)
     : mesh_(std::make_shared<const CellMesh>(mesh)), are_triangles_(mesh.names().cells == CellKind::triangles) {
-  count_faces();
   if (are_triangles_)
     find_facts();
 }
@@ -83,7 +82,7 @@ bool FlowCells::has_face(const FlowFace& face, bool are_triangles) {
   return are_triangles ? face.cells[1] >= 0 : face.length > 2 * least_face * face.distances[0];
 }
 
-void FlowCells::count_faces() {
+FlowCells::FaceCounts FlowCells::count_faces() const {
   const comm::Communicator& comm = mesh_->mesh().comm();
   double nearest = std::numeric_limits<double>::max();
   std::array<std::int64_t, 2> counts{};
@@ -100,13 +99,12 @@ void FlowCells::count_faces() {
     }
   });
   comm.sum(counts);
-  face_count_ = counts[0];
-  facts_.same_centres = counts[1];
-  facts_.nearest_centres = comm.min(nearest);
+  return {counts[0], counts[1], comm.min(nearest)};
 }
 
 /// Finds the triangle with the largest angle; among equal ones that with the lowest number.
 void FlowCells::find_facts() {
+  facts_.faces = count_faces();
   const ExchangeMesh& mesh = mesh_->mesh();
   const comm::Communicator& comm = mesh.comm();
   constexpr double huge = std::numeric_limits<double>::max();
@@ -150,6 +148,24 @@ std::optional<FlowFace> FlowCells::boundary_face(GlobalId site, GlobalId other) 
   return std::nullopt;
 }
 
+std::vector<CellLength> FlowCells::along_edge(GlobalId site, GlobalId other) const {
+  const dual::Cells& cells = mesh_->cells();
+  const auto here = static_cast<LocalIndex>(site - cells.first_site);
+  Surroundings around;
+  dual::look_around(cells, here, around);
+  for (std::size_t spoke = 0; spoke < around.ends.size(); ++spoke)
+    if (cells.number_of(around.ends[spoke]) == other) {
+      const double half = 0.5 * length(around.arms[spoke]);
+      if (!are_triangles_)
+        return {{site, half}, {other, half}};
+      const FlowFace face = face_at(*mesh_, true, here, around, spoke);
+      if (face.cells[1] < 0)
+        return {{face.cells[0], 2 * half}};
+      return {{face.cells[0], half}, {face.cells[1], half}};
+    }
+  return {};
+}
+
 FilePlan FlowCells::proved(FilePlan plan) const {
   plan = mesh_->proved(std::move(plan));
   if (!are_triangles_)
@@ -159,15 +175,15 @@ FilePlan FlowCells::proved(FilePlan plan) const {
                   facts_.worst.x, facts_.worst.y);
   plan.summary = fmt::format("{} triangles as cells, {} of them obtuse; largest angle {}; the centres of two cells are "
                              "at least {:.3g} of their side apart",
-                             count(), facts_.obtuse, worst, facts_.nearest_centres);
+                             count(), facts_.obtuse, worst, facts_.faces.nearest_centres);
   if (facts_.obtuse > 0)
     plan.warning = fmt::format("obtuse triangles, whose centres lie in a neighbour: {} of {}; the largest angle is {}; "
                                "use more points there, or cells = voronoi, whose centres lie inside",
                                facts_.obtuse, count(), worst);
-  if (facts_.same_centres > 0)
+  if (facts_.faces.same_centres > 0)
     plan.warning += fmt::format("{}neighbours with their centres at one place, since the corners of both lie on one "
                                 "circle: {} pairs; a flux between them has no limit; use cells = voronoi",
-                                plan.warning.empty() ? "" : "; ", facts_.same_centres);
+                                plan.warning.empty() ? "" : "; ", facts_.faces.same_centres);
   return plan;
 }
 

@@ -9,6 +9,7 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace trime::formats {
 
@@ -28,6 +29,12 @@ struct FlowFace {
   std::array<double, 2> distances; ///< from each centre to the face; negative if an obtuse triangle lies behind it
 };
 
+/// How much of an edge of the mesh lies in a cell, or at its rim.
+struct CellLength {
+  GlobalId cell;
+  double length;
+};
+
 class FlowCells {
 public:
   /// Makes the cells that Names::cells asks for. @pre the mesh outlives this object and its rows
@@ -38,7 +45,8 @@ public:
   bool are_triangles() const { return are_triangles_; }
   const std::shared_ptr<const CellMesh>& mesh() const { return mesh_; }
   GlobalId count() const;                                 ///< number of cells over all ranks
-  std::int64_t face_count() const { return face_count_; } ///< number of faces between cells over all ranks
+  /// Returns the number of faces between cells over all ranks. Collective.
+  std::int64_t face_count() const { return count_faces().faces; }
 
   /// Returns rows for which append(cell, text) is called, once for each cell in the order of numbers.
   template <class Append>
@@ -62,19 +70,27 @@ public:
   /// Returns the face of a site's cell on the boundary edge to another point; that of a triangle belongs to the end
   /// with the lower number. @pre the edge ends at a site of this rank
   std::optional<FlowFace> boundary_face(GlobalId site, GlobalId other) const;
+  /// Returns the cells along an edge of the mesh: those of both ends, or the triangles on both sides, with half of its
+  /// length each. A triangle at the boundary has the whole length. Nothing is returned if there is no such edge.
+  /// @pre the edge ends at a site of this rank
+  std::vector<CellLength> along_edge(GlobalId site, GlobalId other) const;
 
   /// Returns the plan of a file with what the proof says, and what is known of triangles as cells.
   FilePlan proved(FilePlan plan) const;
 
 private:
+  struct FaceCounts {
+    std::int64_t faces = 0;
+    std::int64_t same_centres = 0; ///< faces whose centres are nearer than a billionth of their length
+    double nearest_centres = 0;    ///< least distance of centres over the length of their face
+  };
   /// Holds what must be known of triangles as cells.
   struct TriangleFacts {
     std::int64_t obtuse = 0;
     double area = 0;
     double least_cosine = 1;       ///< least cosine of an angle
     geometry::Vec2 worst{0, 0};    ///< circumcentre of the triangle with the largest angle
-    double nearest_centres = 0;    ///< distance of centres over the length of their face
-    std::int64_t same_centres = 0; ///< faces whose centres are nearer than a billionth of their length
+    FaceCounts faces;
   };
 
   static FlowCell cell_at(const CellMesh& mesh, LocalIndex site, const dual::Surroundings& around);
@@ -90,12 +106,11 @@ private:
         if (const FlowFace face = face_at(mesh, are_triangles, site, around, spoke); has_face(face, are_triangles))
           use(face);
   }
-  void count_faces();
+  FaceCounts count_faces() const;
   void find_facts();
 
   std::shared_ptr<const CellMesh> mesh_;
   bool are_triangles_;
-  std::int64_t face_count_ = 0;
   TriangleFacts facts_;
 };
 

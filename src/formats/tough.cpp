@@ -3,7 +3,7 @@
 // layer of thickness 1. A line has columns of fixed width. That of an element has a name of five characters, the
 // material, the volume and the centre. That of a connection has the names of both elements, the direction, the
 // distances of both centres from the face, and the area of the face.
-#include "formats/flow_cells.hpp"
+#include "formats/named_cells.hpp"
 #include "formats/solver_names.hpp"
 #include "trime/core/error.hpp"
 
@@ -119,7 +119,8 @@ std::vector<FilePlan> plan_tough(const ExchangeMesh& mesh, const std::string& pa
   for (std::size_t k = 0; k < std::min(materials.size(), most_listed); ++k)
     plan.summary +=
         fmt::format("{}{} is {}", k == 0 ? "; material " : ", ", materials[k], in_comment(mesh.names().regions[k]));
-  return {plan};
+  return {plan, plan_named_cells(cells, paths_of(Format::tough, path, mesh.names())[1],
+                                 [names](GlobalId number, std::string& to) { names.append(number, to); })};
 }
 
 } // namespace trime::formats

@@ -5,7 +5,7 @@
 // of the boundary has a file with its connections. A boundary edge has one for its triangle, or two for Voronoi cells:
 // one for the cell at each end, in the middle of its half of the edge.
 #include "comm/outbox.hpp"
-#include "formats/flow_cells.hpp"
+#include "formats/named_cells.hpp"
 #include "formats/rows_by_number.hpp"
 
 #include <fmt/format.h>
@@ -79,6 +79,7 @@ std::vector<FilePlan> plan_uge(const ExchangeMesh& mesh, const std::string& path
                           append_line(to, face->cells[0] + 1, face->place.x, face->place.y, std::int64_t{0},
                                       face->length);
                       })}});
+  files.push_back(plan_named_cells(*cells, paths.back(), append_cell_number));
   return files;
 }
 

@@ -75,15 +75,23 @@ std::vector<int> parts_named(std::string_view name, const std::vector<std::strin
   return found;
 }
 
+std::vector<std::string> curve_names(const geometry::Domain& domain) {
+  std::vector<std::string> names = domain.boundary().part_names;
+  names.insert(names.end(), domain.curves().names.begin(), domain.curves().names.end());
+  for (std::size_t pair = 0; pair < domain.regions().pairs.size(); ++pair)
+    names.push_back(domain.regions().pair_name(pair));
+  if (!domain.fixed_points().empty())
+    names.emplace_back(fixed_points_name);
+  return names;
+}
+
 geometry::Boundary named_curves(const geometry::Domain& domain) {
   geometry::Boundary named = domain.boundary();
   const auto parts = static_cast<int>(named.part_names.size());
   const geometry::InnerCurves& inner = domain.curves();
-  named.part_names.insert(named.part_names.end(), inner.names.begin(), inner.names.end());
   const geometry::Regions& regions = domain.regions();
-  const auto first_pair = static_cast<int>(named.part_names.size());
-  for (std::size_t pair = 0; pair < regions.pairs.size(); ++pair)
-    named.part_names.push_back(regions.pair_name(pair));
+  const int first_pair = parts + static_cast<int>(inner.names.size());
+  named.part_names = curve_names(domain);
   for (const geometry::InnerArc& arc : inner.arcs)
     for (geometry::Piece& piece : named.loops.emplace_back(geometry::Loop{arc.pieces}).pieces) {
       piece.part = piece.part >= 0 ? parts + piece.part : first_pair + regions.pair_of(arc.left, arc.right);
@@ -92,6 +100,11 @@ geometry::Boundary named_curves(const geometry::Domain& domain) {
       piece.end = piece.end + home;
       piece.center = piece.center + home;
     }
+  for (const geometry::FixedPoint& fixed : domain.fixed_points()) {
+    geometry::Piece& point = named.loops.emplace_back().pieces.emplace_back();
+    point.start = point.end = named.periods.wrap(fixed.position);
+    point.part = static_cast<int>(named.part_names.size()) - 1;
+  }
   return named;
 }
 

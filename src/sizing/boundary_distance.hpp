@@ -19,8 +19,16 @@ namespace trime::sizing {
 /// @throws ConfigError that lists the known names if there is no such part
 std::vector<int> parts_named(std::string_view name, const std::vector<std::string>& part_names);
 
-/// @brief Returns the boundary of a domain, and its inner curves as further loops, whose names follow those of the
-/// parts. The result is a list of named curves; it bounds no shape if there are inner curves.
+/// Name of the fixed points among the named curves.
+inline constexpr const char* fixed_points_name = "fixed_points";
+
+/// @brief Returns the names to which distances can be measured: the parts of the boundary, curves inside, pairs of
+/// regions, and fixed points if the domain has any.
+std::vector<std::string> curve_names(const geometry::Domain& domain);
+
+/// @brief Returns the boundary of a domain, and its inner curves as further loops, with the names curve_names(domain).
+/// A fixed point is a piece of length 0. The result is a list of named curves; it bounds no shape if there is more than
+/// the boundary.
 geometry::Boundary named_curves(const geometry::Domain& domain);
 
 /// Returns the periodic images of what lies in the container of the domain.

@@ -1,11 +1,15 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests cells for PFLOTRAN, MODFLOW 6 and TOUGH2: triangles with their circumcentres, and Voronoi cells."""
+import csv
+import json
 import math
 import pathlib
 import tempfile
 import unittest
+from collections import defaultdict
 
+import h5py
 import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import spsolve
@@ -16,8 +20,11 @@ from trime_run import run
 
 HALVES = (rectangle("box", (0, 0), (1, 1)) + rectangle("left", (0, 0), (0.5, 1)) + region("soft_rock", "left") +
           region("soft_rock_2", "right") + rectangle("right", (0.75, 0), (1, 1)) +
+          "[curve.water]\nfile = river.geojson\nattribute = name\n" +
           "[shape]\ngeometry = box\nrest = hard\n[meshing]\npoints = 700\n")
-ENDINGS = (".uge", "_box.ex", ".disv", ".zones", ".tough")
+RIVER = {"type": "Feature", "properties": {"name": 'the "river", old'},
+         "geometry": {"type": "LineString", "coordinates": [[0, 0.2], [0.3, 0.4], [0.62, 0.5]]}}
+ENDINGS = (".uge", "_box.ex", "_uge.csv", ".disv", ".zones", "_disv.csv", ".tough", "_tough.csv")
 
 
 class FlowCells(unittest.TestCase):
@@ -26,6 +33,7 @@ class FlowCells(unittest.TestCase):
         cls.directory = tempfile.TemporaryDirectory(prefix="trime-flow-")
         cls.work = pathlib.Path(cls.directory.name)
         (cls.work / "mesh.ini").write_text(HALVES)
+        (cls.work / "river.geojson").write_text(json.dumps(RIVER))
         cls.output = cls.make("triangles", "triangles").stdout
         cls.make("voronoi", "voronoi")
         cls.mesh = Mesh(cls.work / "triangles.h5")
@@ -98,6 +106,42 @@ class FlowCells(unittest.TestCase):
         zones = np.loadtxt(self.work / "triangles.zones", dtype=int)
         np.testing.assert_array_equal(zones, self.mesh.region)
         self.assertEqual(grid.zones, self.mesh.names)
+
+    def cells_of_lines(self, cells):
+        """Lengths by label and cell, from the edges in NAME.h5."""
+        with h5py.File(self.work / f"{cells}.h5") as file:
+            lines, labels = file["/Mesh/lines/topology"][:], file["/Mesh/lines/labels"][:]
+        at_edge = defaultdict(list)
+        for number, (a, b, c) in enumerate(self.mesh.triangles):
+            for end in ((a, b), (b, c), (c, a)):
+                at_edge[frozenset(end)].append(number)
+        lengths = defaultdict(float)
+        for ends, label in zip(lines, labels):
+            length = np.hypot(*(self.mesh.points[ends[1]] - self.mesh.points[ends[0]]))
+            at = ends if cells == "voronoi" else at_edge[frozenset(ends)]
+            for cell in at:
+                lengths[int(label), int(cell)] += length / len(at)
+        return lengths
+
+    def test_cells_along_named_lines(self):
+        names = self.mesh.parts + list(self.mesh.curve_lengths) + [self.mesh.pairs[k] for k in sorted(self.mesh.pairs)]
+        for cells in ("triangles", "voronoi"):
+            wanted = self.cells_of_lines(cells)
+            with open(self.work / f"{cells}_disv.csv", newline="", encoding="utf-8") as table:
+                rows = list(csv.DictReader(table))
+            self.assertEqual([(int(row["label"]), int(row["cell"]) - 1) for row in rows], sorted(wanted))
+            self.assertEqual({row["name"] for row in rows},
+                             {"box", 'water.the "river", old', "hard|soft_rock", "hard|soft_rock_2"})
+            for row in rows:
+                self.assertEqual(row["name"], names[int(row["label"]) - 1])
+                length = wanted[int(row["label"]), int(row["cell"]) - 1]
+                self.assertAlmostEqual(float(row["length"]), length, delta=1e-14)
+            box = math.fsum(float(row["length"]) for row in rows if row["name"] == "box")
+            self.assertAlmostEqual(box, 4, delta=1e-12)
+            elements = read_tough(self.work / f"{cells}.tough")[0]
+            with open(self.work / f"{cells}_tough.csv", newline="", encoding="utf-8") as table:
+                self.assertEqual([row["cell"] for row in csv.DictReader(table)],
+                                 [elements[int(row["cell"]) - 1] for row in rows])
 
     def test_tough(self):
         for cells in ("triangles", "voronoi"):
