@@ -374,7 +374,8 @@ const Option table[] = {
      .key = "fixed_points",
      .kind = OptionKind::path,
      .fallback = "none",
-     .meaning = "a file of `x y` lines: the mesh has a point at exactly each of these places; those on the boundary "
+     .meaning = "a file of `x y` lines, or the points of a `.geojson`: the mesh has a point at exactly each of these "
+                "places; those on the boundary "
                 "become corners"},
     {.section = "meshing",
      .key = "fixed_points_normalize_with",

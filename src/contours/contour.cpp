@@ -153,7 +153,28 @@ Contour parse_xy(std::string_view text, const std::string& source, Faults faults
   return contour;
 }
 
+namespace {
+
+bool ends_with_extension(const std::string& path, std::string_view extension) {
+  if (path.size() < extension.size())
+    return false;
+  for (std::size_t i = 0; i < extension.size(); ++i) {
+    const char c = path[path.size() - extension.size() + i];
+    if ((c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c) != extension[i])
+      return false;
+  }
+  return true;
+}
+
+bool is_geojson(const std::string& path) {
+  return ends_with_extension(path, ".geojson") || ends_with_extension(path, ".json");
+}
+
+} // namespace
+
 std::vector<FilePoint> parse_points(std::string_view text, const std::string& source) {
+  if (is_geojson(source))
+    return parse_geojson_points(text, source);
   check_encoding(text, source);
   const std::optional<std::string> plain = without_semicolons(text, source);
   std::vector<FilePoint> points;
@@ -208,17 +229,6 @@ Normalization fit_to_container(const Contour& contour, const Box& container) {
 
 namespace {
 
-bool ends_with_extension(const std::string& path, std::string_view extension) {
-  if (path.size() < extension.size())
-    return false;
-  for (std::size_t i = 0; i < extension.size(); ++i) {
-    const char c = path[path.size() - extension.size() + i];
-    if ((c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c) != extension[i])
-      return false;
-  }
-  return true;
-}
-
 void refuse_unread_formats(const std::string& path) {
   for (const std::string_view extension :
        {".kml", ".kmz", ".gpkg", ".dxf", ".svg", ".gml", ".shx", ".dbf", ".zip", ".node"})
@@ -227,10 +237,6 @@ void refuse_unread_formats(const std::string& path) {
           fmt::format("{}: expected a contour file of a known type, found '{}'; known are .xy, .geojson, "
                       ".poly, .shp, .asc or .msh (GDAL reads many formats of maps: ogr2ogr OUT.geojson {})",
                       path, extension, path));
-}
-
-bool is_geojson(const std::string& path) {
-  return ends_with_extension(path, ".geojson") || ends_with_extension(path, ".json");
 }
 
 void check_has_attributes(const std::string& path, const std::string& attribute) {

@@ -127,8 +127,7 @@ public:
     if (array.numbers > 0) {
       if (array.numbers < 2)
         refuse(array.line, "expected a position of two numbers [x, y] or more, found one");
-      if (!object.arrays.empty())
-        object.arrays.back().positions.push_back({array.place, array.line});
+      (object.arrays.empty() ? object.alone : object.arrays.back().positions).push_back({array.place, array.line});
     } else if (!array.positions.empty()) {
       object.chains.push_back(array.positions);
       object.polygons.push_back(object.polygon);
@@ -143,6 +142,8 @@ public:
                               shown(token), position));
   }
 
+  /// Returns the places of all geometries Point and MultiPoint.
+  const std::vector<FilePoint>& points() const { return points_; }
   void finish(Faults faults) { rings_.finish("GeoJSON with a Polygon or MultiPolygon", faults); }
 
 private:
@@ -157,6 +158,7 @@ private:
     std::vector<Array> arrays; // that are open, inside `coordinates`
     std::vector<Chain> chains;
     std::vector<int> polygons; // the polygon of each chain, counted in this object
+    Chain alone;               // the position that is all of `coordinates`
     int polygon = 0;           // number of polygons that have ended
     int lists = 0;             // other arrays that are open
     bool has_coordinates = false;
@@ -234,6 +236,11 @@ private:
   void add_rings(const Object& object) {
     const bool is_polygon = object.type == "Polygon" || object.type == "MultiPolygon",
                is_line = object.type == "LineString" || object.type == "MultiLineString";
+    if (object.type == "Point")
+      points_.insert(points_.end(), object.alone.begin(), object.alone.end());
+    if (object.type == "MultiPoint")
+      for (const Chain& chain : object.chains)
+        points_.insert(points_.end(), chain.begin(), chain.end());
     if (!is_polygon && !is_line) {
       if (!object.type.empty() && object.has_coordinates)
         rings_.skip(object.type, line_);
@@ -251,6 +258,7 @@ private:
   std::vector<Object> objects_; // that are open
   FeatureName feature_;         // the present one
   int name_rank_ = 0;           // telling_rank of the attribute with its name
+  std::vector<FilePoint> points_;
 };
 
 } // namespace
@@ -277,6 +285,21 @@ Contour parse_geojson(std::string_view text, const std::string& source, const st
 
 Contour parse_geojson_lines(std::string_view text, const std::string& source, const std::string& attribute) {
   return parse(text, source, attribute, FeatureRings::Use::curves, Faults::refuse);
+}
+
+std::vector<FilePoint> parse_geojson_points(std::string_view text, const std::string& source) {
+  check_encoding(text, source);
+  Contour lines; // lines and polygons of the map, which are not used
+  lines.source = source;
+  const std::string no_attribute;
+  int line = 1;
+  GeoJsonReader reader(lines, no_attribute, line, FeatureRings::Use::curves);
+  nlohmann::json::sax_parse(LineIterator(text.data(), &line), LineIterator(text.data() + text.size(), &line), &reader);
+  for (const FilePoint& point : reader.points())
+    check_coordinates(point.position, source, point.line);
+  if (reader.points().empty())
+    throw GeometryError(fmt::format("{}: expected GeoJSON with a Point or MultiPoint, found none", source));
+  return reader.points();
 }
 
 } // namespace trime::contours

@@ -2,10 +2,8 @@
 #include "dual/cells.hpp"
 
 #include "comm/outbox.hpp"
-#include "core/thread_loop.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 
 namespace trime::dual {
@@ -19,12 +17,17 @@ struct SentPoint {
   Vec2 place;
 };
 
-/// A triangle on its way to the ranks of its corners.
-struct SentTriangle {
+/// A triangle with the numbers of its corners, also on its way to the ranks of its corners.
+struct NumberedTriangle {
   GlobalId number;
   std::array<GlobalId, 3> corners;
-  std::int64_t region;
+  std::int64_t region; // as long as the numbers, so that all bytes are set
 };
+
+NumberedTriangle numbered_triangle(const mesh::DistributedMesh& mesh, std::size_t t) {
+  return {mesh.triangle_slab.first + static_cast<GlobalId>(t), mesh.triangle_ids(t),
+          mesh.region.empty() ? 1 : mesh.region[t]};
+}
 
 /// The sites of this rank: its share of the points.
 std::vector<Vec2> own_sites(const mesh::DistributedMesh& mesh, const Cells& cells, const comm::Communicator& comm) {
@@ -46,44 +49,53 @@ std::vector<Vec2> own_sites(const mesh::DistributedMesh& mesh, const Cells& cell
   return sites;
 }
 
-/// All triangles with a corner at a site of this rank, by number.
-std::vector<SentTriangle> triangles_at_sites(const mesh::DistributedMesh& mesh, const Cells& cells,
-                                             const comm::Communicator& comm) {
-  std::vector<SentTriangle> kept;
-  comm::Outbox<SentTriangle> away;
+/// Triangles of other ranks with a corner at a site of this rank, by number.
+std::vector<NumberedTriangle> triangles_of_others(const mesh::DistributedMesh& mesh, const Cells& cells,
+                                                  const comm::Communicator& comm) {
+  comm::Outbox<NumberedTriangle> away;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const SentTriangle triangle{mesh.triangle_slab.first + static_cast<GlobalId>(t), mesh.triangle_ids(t),
-                                mesh.region.empty() ? 1 : mesh.region[t]};
+    const NumberedTriangle triangle = numbered_triangle(mesh, t);
     std::array<int, 3> ranks{};
     for (std::size_t k = 0; k < 3; ++k) {
-      ranks[k] = cells.shares.rank_of(triangle.corners[k]);
-      if (std::find(ranks.begin(), ranks.begin() + k, ranks[k]) != ranks.begin() + k)
-        continue;
-      if (ranks[k] == comm.rank())
-        kept.push_back(triangle);
-      else
+      ranks[k] = cells.is_here(triangle.corners[k]) ? comm.rank() : cells.shares.rank_of(triangle.corners[k]);
+      if (ranks[k] != comm.rank() && std::find(ranks.begin(), ranks.begin() + k, ranks[k]) == ranks.begin() + k)
         away[ranks[k]].push_back(triangle);
     }
   }
-  for (const comm::Message& message : comm::send(comm, away)) {
-    const std::vector<SentTriangle> arrived = comm::from_bytes<SentTriangle>(message.data);
-    kept.insert(kept.end(), arrived.begin(), arrived.end());
+  std::vector<NumberedTriangle> others;
+  for (const comm::Message& message : comm::send(comm, away)) { // by rank, as the numbers are
+    const std::vector<NumberedTriangle> arrived = comm::from_bytes<NumberedTriangle>(message.data);
+    others.insert(others.end(), arrived.begin(), arrived.end());
   }
-  std::sort(kept.begin(), kept.end(), [](const auto& a, const auto& b) { return a.number < b.number; });
-  return kept;
+  return others;
 }
 
-/// Points of other ranks that this rank needs, ascending and each once.
-std::vector<GlobalId> wanted_points(const mesh::DistributedMesh& mesh, const std::vector<SentTriangle>& triangles,
-                                    const Cells& cells, bool for_slab) {
+/// Calls use(triangle) for all triangles with a corner at a site of this rank, by number. Those of this rank's slab are
+/// not listed, since the list would take more memory than the cells.
+template <class Use>
+void for_each_triangle(const mesh::DistributedMesh& mesh, const std::vector<NumberedTriangle>& others,
+                       const Cells& cells, const Use& use) {
+  const auto behind = std::partition_point(others.begin(), others.end(), [&](const NumberedTriangle& triangle) {
+    return triangle.number < mesh.triangle_slab.first;
+  });
+  std::for_each(others.begin(), behind, use);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const NumberedTriangle triangle = numbered_triangle(mesh, t);
+    if (std::any_of(triangle.corners.begin(), triangle.corners.end(), [&](GlobalId p) { return cells.is_here(p); }))
+      use(triangle);
+  }
+  std::for_each(behind, others.end(), use);
+}
+
+/// Points of other ranks that the triangles at sites of this rank use, ascending and each once.
+std::vector<GlobalId> points_of_others(const mesh::DistributedMesh& mesh, const std::vector<NumberedTriangle>& others,
+                                       const Cells& cells) {
   std::vector<GlobalId> wanted;
-  for (const SentTriangle& triangle : triangles)
+  for_each_triangle(mesh, others, cells, [&](const NumberedTriangle& triangle) {
     for (const GlobalId corner : triangle.corners)
       if (!cells.is_here(corner))
         wanted.push_back(corner);
-  if (for_slab)
-    std::copy_if(mesh.foreign.begin(), mesh.foreign.end(), std::back_inserter(wanted),
-                 [&](GlobalId point) { return !cells.is_here(point); });
+  });
   std::sort(wanted.begin(), wanted.end());
   wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
   return wanted;
@@ -108,9 +120,13 @@ std::vector<Vec2> places_of(const std::vector<GlobalId>& wanted, const std::vect
 }
 
 /// Keeps the points of other ranks that triangles at sites use, and those that the slab of the mesh uses.
-void add_foreign(const mesh::DistributedMesh& mesh, const std::vector<SentTriangle>& triangles, Cells& cells,
+void add_foreign(const mesh::DistributedMesh& mesh, const std::vector<NumberedTriangle>& others, Cells& cells,
                  const comm::Communicator& comm) {
-  const std::vector<GlobalId> wanted = wanted_points(mesh, triangles, cells, true);
+  cells.foreign = points_of_others(mesh, others, cells);
+  std::vector<GlobalId> wanted;
+  std::set_union(cells.foreign.begin(), cells.foreign.end(), mesh.foreign.begin(), mesh.foreign.end(),
+                 std::back_inserter(wanted));
+  std::erase_if(wanted, [&](GlobalId point) { return cells.is_here(point); });
   const std::vector<Vec2> places = places_of(wanted, cells.points, cells, comm);
   const auto place_of = [&](GlobalId point) {
     const auto found = std::lower_bound(wanted.begin(), wanted.end(), point);
@@ -119,7 +135,6 @@ void add_foreign(const mesh::DistributedMesh& mesh, const std::vector<SentTriang
   for (const GlobalId point : mesh.foreign)
     cells.slab_places.push_back(cells.is_here(point) ? cells.points[static_cast<std::size_t>(point - cells.first_site)]
                                                      : place_of(point));
-  cells.foreign = wanted_points(mesh, triangles, cells, false);
   for (const GlobalId point : cells.foreign)
     cells.points.push_back(place_of(point));
 }
@@ -131,37 +146,19 @@ LocalIndex local_index(GlobalId point, const Cells& cells) {
   return cells.site_count + static_cast<LocalIndex>(found - cells.foreign.begin());
 }
 
-void add_triangles(const std::vector<SentTriangle>& triangles, Cells& cells) {
-  cells.triangles.resize(triangles.size());
-  thread_loop(std::ssize(triangles), 1024, [&](std::ptrdiff_t t, int) {
-    const SentTriangle& sent = triangles[static_cast<std::size_t>(t)];
-    CellTriangle& made = cells.triangles[static_cast<std::size_t>(t)];
-    made.number = sent.number;
-    made.region = static_cast<std::int32_t>(sent.region);
-    for (std::size_t k = 0; k < 3; ++k)
-      made.corners[k] = local_index(sent.corners[k], cells);
-    const auto side = [&](std::size_t k) {
-      return difference(cells.points[at(made.corners[k])], cells.points[at(made.corners[0])], cells.period);
-    };
-    made.centre = circumcentre(side(1), side(2));
+void add_triangles(const mesh::DistributedMesh& mesh, const std::vector<NumberedTriangle>& others, Cells& cells) {
+  std::size_t count = 0;
+  for_each_triangle(mesh, others, cells, [&](const NumberedTriangle&) { ++count; });
+  cells.triangles.reserve(count);
+  for_each_triangle(mesh, others, cells, [&](const NumberedTriangle& triangle) {
+    const auto& [a, b, c] = triangle.corners;
+    cells.triangles.push_back({triangle.number,
+                               {local_index(a, cells), local_index(b, cells), local_index(c, cells)},
+                               static_cast<std::int32_t>(triangle.region)});
   });
 }
 
 } // namespace
-
-Vec2 difference(Vec2 to, Vec2 from, Vec2 period) {
-  Vec2 d = to - from;
-  if (period.x > 0)
-    d.x -= period.x * std::nearbyint(d.x / period.x);
-  if (period.y > 0)
-    d.y -= period.y * std::nearbyint(d.y / period.y);
-  return d;
-}
-
-Vec2 circumcentre(Vec2 b, Vec2 c) {
-  const double bb = squared_length(b), cc = squared_length(c), twice = 2 * cross(b, c);
-  return {(bb * c.y - cc * b.y) / twice, (cc * b.x - bb * c.x) / twice};
-}
 
 Cells make_cells(const mesh::DistributedMesh& mesh, Vec2 period, const comm::Communicator& comm) {
   Cells cells;
@@ -172,9 +169,9 @@ Cells make_cells(const mesh::DistributedMesh& mesh, Vec2 period, const comm::Com
   cells.period = period;
   cells.points = own_sites(mesh, cells, comm);
   {
-    const std::vector<SentTriangle> triangles = triangles_at_sites(mesh, cells, comm);
-    add_foreign(mesh, triangles, cells, comm);
-    add_triangles(triangles, cells);
+    const std::vector<NumberedTriangle> others = triangles_of_others(mesh, cells, comm);
+    add_foreign(mesh, others, cells, comm);
+    add_triangles(mesh, others, cells);
   }
   find_fans(cells, comm);
   return cells;

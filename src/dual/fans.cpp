@@ -26,54 +26,69 @@ void list_fans(Cells& cells) {
   for_each_site([&](std::size_t site, LocalIndex t) { cells.fans[static_cast<std::size_t>(next[site]++)] = t; });
 }
 
-/// The corner of a triangle that follows a site `steps` places later.
-LocalIndex corner_behind(const CellTriangle& triangle, LocalIndex site, std::size_t steps) {
-  const std::size_t k = triangle.corners[0] == site ? 0 : triangle.corners[1] == site ? 1 : 2;
-  return triangle.corners[(k + steps) % 3];
+/// A triangle at a site, with the corners that follow the site in it.
+struct FanTriangle {
+  LocalIndex enters, leaves;
+  LocalIndex triangle;
+};
+
+FanTriangle fan_triangle(const Cells& cells, LocalIndex site, LocalIndex t) {
+  const CellTriangle& triangle = cells.triangles[at(t)];
+  return {triangle.corner_behind(site, 1), triangle.corner_behind(site, 2), t};
 }
 
-enum class FanKind : std::uint8_t { open, closed, broken };
+/// What the triangles around a site are; `whole` is a closed fan in one region.
+enum class FanKind : std::uint8_t { open, closed, whole, broken };
 
-/// Puts the triangles of one site into their order.
-FanKind order_fan(const Cells& cells, LocalIndex site, std::span<LocalIndex> fan) {
-  const auto enters = [&](LocalIndex t) { return corner_behind(cells.triangles[at(t)], site, 1); };
-  const auto leaves = [&](LocalIndex t) { return corner_behind(cells.triangles[at(t)], site, 2); };
+/// Puts the triangles of one site into their order. @param triangles a buffer
+FanKind order_fan(const Cells& cells, LocalIndex site, std::span<LocalIndex> fan, std::vector<FanTriangle>& triangles) {
   if (fan.empty())
     return FanKind::broken;
-  const auto by_number = [&](LocalIndex a, LocalIndex b) {
-    return cells.triangles[at(a)].number < cells.triangles[at(b)].number;
-  };
+  triangles.clear();
+  for (const LocalIndex t : fan)
+    triangles.push_back(fan_triangle(cells, site, t));
   std::size_t starts = 0, start = 0;
   for (std::size_t k = 0; k < fan.size(); ++k)
-    if (std::none_of(fan.begin(), fan.end(), [&](LocalIndex t) { return leaves(t) == enters(fan[k]); })) {
+    if (std::none_of(triangles.begin(), triangles.end(),
+                     [&](const FanTriangle& t) { return t.leaves == triangles[k].enters; })) {
       ++starts;
       start = k;
     }
   if (starts > 1)
     return FanKind::broken;
+  const auto by_number = [&](LocalIndex a, LocalIndex b) {
+    return cells.triangles[at(a)].number < cells.triangles[at(b)].number;
+  };
   if (starts == 0)
     start = static_cast<std::size_t>(std::min_element(fan.begin(), fan.end(), by_number) - fan.begin());
-  std::swap(fan[0], fan[start]);
+  std::swap(triangles[0], triangles[start]);
   for (std::size_t k = 1; k < fan.size(); ++k) {
-    const auto next = std::find_if(fan.begin() + static_cast<std::ptrdiff_t>(k), fan.end(),
-                                   [&](LocalIndex t) { return enters(t) == leaves(fan[k - 1]); });
-    if (next == fan.end())
+    const auto next = std::find_if(triangles.begin() + static_cast<std::ptrdiff_t>(k), triangles.end(),
+                                   [&](const FanTriangle& t) { return t.enters == triangles[k - 1].leaves; });
+    if (next == triangles.end())
       return FanKind::broken;
-    std::iter_swap(fan.begin() + static_cast<std::ptrdiff_t>(k), next);
+    std::iter_swap(triangles.begin() + static_cast<std::ptrdiff_t>(k), next);
   }
+  std::transform(triangles.begin(), triangles.end(), fan.begin(), [](const FanTriangle& t) { return t.triangle; });
   if (starts == 1)
     return FanKind::open;
-  return leaves(fan.back()) == enters(fan[0]) ? FanKind::closed : FanKind::broken;
+  if (triangles.back().leaves != triangles[0].enters)
+    return FanKind::broken;
+  const auto region = [&](LocalIndex t) { return cells.triangles[at(t)].region; };
+  const bool is_whole = std::all_of(fan.begin(), fan.end(), [&](LocalIndex t) { return region(t) == region(fan[0]); });
+  return is_whole ? FanKind::whole : FanKind::closed;
 }
 
 void order_fans(Cells& cells, const comm::Communicator& comm) {
   std::vector<FanKind> kinds(at(cells.site_count));
-  thread_loop(cells.site_count, 1024, [&](std::ptrdiff_t k, int) {
+  PerThread<std::vector<FanTriangle>> triangles;
+  thread_loop(cells.site_count, 1024, [&](std::ptrdiff_t k, int thread) {
     const auto from = cells.fan_first[static_cast<std::size_t>(k)],
                to = cells.fan_first[static_cast<std::size_t>(k) + 1];
     kinds[static_cast<std::size_t>(k)] =
         order_fan(cells, static_cast<LocalIndex>(k),
-                  std::span(cells.fans).subspan(static_cast<std::size_t>(from), static_cast<std::size_t>(to - from)));
+                  std::span(cells.fans).subspan(static_cast<std::size_t>(from), static_cast<std::size_t>(to - from)),
+                  triangles[thread]);
   });
   comm::run_agreed(comm, [&] {
     for (std::size_t k = 0; k < kinds.size(); ++k)
@@ -86,8 +101,11 @@ void order_fans(Cells& cells, const comm::Communicator& comm) {
                         cells.fan_first[k + 1] - cells.fan_first[k]));
   });
   cells.closed.resize(kinds.size());
-  for (std::size_t k = 0; k < kinds.size(); ++k)
-    cells.closed[k] = kinds[k] == FanKind::closed;
+  cells.divided.resize(kinds.size());
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    cells.closed[k] = kinds[k] != FanKind::open;
+    cells.divided[k] = kinds[k] != FanKind::whole;
+  }
 }
 
 } // namespace

@@ -24,14 +24,8 @@ Cells cells_of(const handover::LocalMesh& mesh, Vec2 period) {
   cells.period = period;
   cells.points = mesh.points;
   cells.foreign = mesh.ghost_ids;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& corners = mesh.triangles[t];
-    const auto side = [&](std::size_t k) {
-      return difference(mesh.points[at(corners[k])], mesh.points[at(corners[0])], period);
-    };
-    cells.triangles.push_back(
-        {mesh.triangle_ids[t], corners, mesh.regions.empty() ? 1 : mesh.regions[t], circumcentre(side(1), side(2))});
-  }
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    cells.triangles.push_back({mesh.triangle_ids[t], mesh.triangles[t], mesh.regions.empty() ? 1 : mesh.regions[t]});
   return cells;
 }
 
@@ -40,7 +34,7 @@ class Vertices {
 public:
   explicit Vertices(const Cells& cells) : cells_(cells) {
     for (const CellTriangle& triangle : cells.triangles)
-      places_.push_back(cells.points[at(triangle.corners[0])] + triangle.centre);
+      places_.push_back(cells.points[at(triangle.corners[0])] + cells.centre_of(triangle));
   }
 
   /// Finds the vertices around a site, as the site sees them.
@@ -165,13 +159,13 @@ private:
     const CellPart whole{0, 0, around.triangles.size(), around.is_closed};
     for_each_corner(around, whole, CornerList{seen, made_.corners});
     made_.corner_first.push_back(std::ssize(made_.corners));
-    const Moments cell = moments_of(corners_of(around, whole));
+    const Moments cell = moments_of(around, whole);
     made_.areas[at(site)] = cell.area;
     made_.centroids[at(site)] = place + cell.centroid;
     for (const CellPart& part : parts_of(around)) {
       for_each_corner(around, part, CornerList{seen, made_.part_corners});
       made_.part_corner_first.push_back(std::ssize(made_.part_corners));
-      const Moments moments = moments_of(corners_of(around, part));
+      const Moments moments = moments_of(around, part);
       made_.part_regions.push_back(part.region);
       made_.part_areas.push_back(moments.area);
       made_.part_centroids.push_back(place + moments.centroid);

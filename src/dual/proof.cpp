@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <vector>
 
 namespace trime::dual {
 namespace {
@@ -19,16 +21,56 @@ constexpr double area_tolerance = 1e-12;    // of areas of regions
 constexpr double length_tolerance = 1e-12;  // of the length of an edge
 constexpr double coordinate_roundings = 64; // half units in the last place of the largest coordinate
 
-/// @brief Adds areas as whole multiples of a small unit, so that sums do not depend on the order of their terms. All
-/// areas of a mesh together are at most as large as the box around it, which has 2^61 units.
-class AreaUnit {
+/// @brief Adds areas of regions as whole multiples of a small unit, so that sums do not depend on the order of their
+/// terms. All areas of a mesh together are at most as large as the box around it, which has 2^61 units. What an area
+/// has beyond whole units is added in smaller ones: the triangles of a mesh with one size have few different areas, so
+/// the roundings of millions of equal terms would add up.
+class AreaSums {
 public:
-  explicit AreaUnit(double box_area) : unit_(std::ldexp(box_area > 0 ? box_area : 1, -61)) {}
-  std::int64_t units(double area) const { return std::llround(area / unit_); }
-  double area(std::int64_t units) const { return static_cast<double>(units) * unit_; }
+  AreaSums(double box_area, std::size_t regions)
+      : unit_(std::ldexp(box_area > 0 ? box_area : 1, -61)), units_(regions, 0), rests_(regions, 0) {}
+
+  void add(std::int32_t region, double area) { // regions count from 1
+    const double units = area / unit_, whole = std::nearbyint(units);
+    units_[index(region)] += static_cast<std::int64_t>(whole);
+    rests_[index(region)] += static_cast<std::int64_t>(std::nearbyint((units - whole) * rests_of_unit));
+  }
+  void add(const AreaSums& other) {
+    for (std::size_t k = 0; k < units_.size(); ++k) {
+      units_[k] += other.units_[k];
+      rests_[k] += other.rests_[k];
+    }
+  }
+  void sum_over_ranks(const comm::Communicator& comm) {
+    comm.sum(units_);
+    comm.sum(rests_);
+  }
+
+  /// Returns the area of all regions.
+  double total() const {
+    return in_units(std::accumulate(units_.begin(), units_.end(), std::int64_t{0}),
+                    std::accumulate(rests_.begin(), rests_.end(), std::int64_t{0})) *
+           unit_;
+  }
+  /// Returns how many regions have another area than in a sum with the same unit.
+  std::int64_t count_different(const AreaSums& wanted) const {
+    std::int64_t different = 0;
+    for (std::size_t k = 0; k < units_.size(); ++k)
+      if (std::fabs(in_units(units_[k] - wanted.units_[k], rests_[k] - wanted.rests_[k])) >
+          area_tolerance * in_units(wanted.units_[k], wanted.rests_[k]) + unit_roundings)
+        ++different;
+    return different;
+  }
 
 private:
+  static constexpr double rests_of_unit = 1 << 24; // 2^39 areas then add up to less than 2^62 of them
+  static std::size_t index(std::int32_t region) { return static_cast<std::size_t>(region - 1); }
+  static double in_units(std::int64_t units, std::int64_t rests) {
+    return static_cast<double>(units) + static_cast<double>(rests) / rests_of_unit;
+  }
+
   double unit_;
+  std::vector<std::int64_t> units_, rests_; // by region
 };
 
 /// The frame in which roundings are judged.
@@ -61,24 +103,25 @@ struct SiteTotals {
   std::int64_t most_corners = 0;
   double smallest_area = std::numeric_limits<double>::max();
   double shortest_dual = std::numeric_limits<double>::max();
-  std::vector<std::int64_t> areas; // of regions, in units
+  AreaSums areas;
+
+  explicit SiteTotals(const AreaSums& none) : areas(none) {}
 };
 
 class SiteCounter {
 public:
-  SiteCounter(const Cells& cells, const AreaUnit& unit, double rounding)
-      : cells_(cells), unit_(unit), rounding_(rounding) {}
+  SiteCounter(const Cells& cells, double rounding) : cells_(cells), rounding_(rounding) {}
 
   void count(LocalIndex site, Surroundings& around, SiteTotals& totals) const {
     look_around(cells_, site, around);
     double area = 0;
-    for (const CellPart& part : parts_of(around)) {
-      const double of_part = moments_of(corners_of(around, part)).area;
+    for_each_part(around, [&](const CellPart& part) {
+      const double of_part = moments_of(around, part).area;
       area += of_part;
-      totals.areas[static_cast<std::size_t>(part.region - 1)] += unit_.units(of_part);
+      totals.areas.add(part.region, of_part);
       ++totals.parts;
       totals.not_positive += of_part > 0 ? 0 : 1;
-    }
+    });
     const std::int64_t corners = std::ssize(around.triangles) + (around.is_closed ? 0 : 3);
     totals.boundary_cells += around.is_closed ? 0 : 1;
     totals.corners += corners;
@@ -102,7 +145,6 @@ private:
   }
 
   const Cells& cells_;
-  const AreaUnit& unit_;
   double rounding_;
 };
 
@@ -117,18 +159,15 @@ void add(const SiteTotals& part, SiteTotals& sum) {
   sum.most_corners = std::max(sum.most_corners, part.most_corners);
   sum.smallest_area = std::min(sum.smallest_area, part.smallest_area);
   sum.shortest_dual = std::min(sum.shortest_dual, part.shortest_dual);
-  for (std::size_t k = 0; k < sum.areas.size(); ++k)
-    sum.areas[k] += part.areas[k];
+  sum.areas.add(part.areas);
 }
 
 /// Counts over all ranks.
-SiteTotals count_sites(const Cells& cells, std::size_t regions, const AreaUnit& unit, double rounding,
-                       const comm::Communicator& comm) {
-  SiteTotals none;
-  none.areas.assign(regions, 0);
+SiteTotals count_sites(const Cells& cells, const AreaSums& no_areas, double rounding, const comm::Communicator& comm) {
+  const SiteTotals none(no_areas);
   PerThread<SiteTotals> of_thread(none);
   PerThread<Surroundings> around;
-  const SiteCounter counter(cells, unit, rounding);
+  const SiteCounter counter(cells, rounding);
   thread_loop(cells.site_count, 256, [&](std::ptrdiff_t site, int thread) {
     counter.count(static_cast<LocalIndex>(site), around[thread], of_thread[thread]);
   });
@@ -139,7 +178,7 @@ SiteTotals count_sites(const Cells& cells, std::size_t regions, const AreaUnit& 
                                      sum.outside, sum.negative,       sum.not_positive};
   std::array<double, 3> extremes{static_cast<double>(sum.most_corners), -sum.smallest_area, -sum.shortest_dual};
   comm.sum_and_max(counts, extremes);
-  comm.sum(sum.areas);
+  sum.areas.sum_over_ranks(comm);
   sum.parts = counts[0];
   sum.boundary_cells = counts[1];
   sum.corners = counts[2];
@@ -154,9 +193,8 @@ SiteTotals count_sites(const Cells& cells, std::size_t regions, const AreaUnit& 
 }
 
 /// Areas of the regions by the triangles of the mesh as it is distributed: without the cells.
-std::vector<std::int64_t> triangle_areas(const mesh::DistributedMesh& mesh, const Cells& cells, std::size_t regions,
-                                         const AreaUnit& unit, const comm::Communicator& comm) {
-  std::vector<std::int64_t> areas(regions, 0);
+AreaSums triangle_areas(const mesh::DistributedMesh& mesh, const Cells& cells, AreaSums areas,
+                        const comm::Communicator& comm) {
   const auto place = [&](LocalIndex corner) {
     const std::size_t k = at(corner);
     return k < mesh.points.size() ? mesh.points[k] : cells.slab_places[k - mesh.points.size()];
@@ -165,9 +203,9 @@ std::vector<std::int64_t> triangle_areas(const mesh::DistributedMesh& mesh, cons
     const auto& [a, b, c] = mesh.triangles[t];
     const Vec2 first = place(a);
     const double twice = cross(difference(place(b), first, cells.period), difference(place(c), first, cells.period));
-    areas[static_cast<std::size_t>(mesh.region.empty() ? 0 : mesh.region[t] - 1)] += unit.units(0.5 * twice);
+    areas.add(mesh.region.empty() ? 1 : mesh.region[t], 0.5 * twice);
   }
-  comm.sum(areas);
+  areas.sum_over_ranks(comm);
   return areas;
 }
 
@@ -175,33 +213,17 @@ mesh::Check zero(const char* name, std::int64_t found, const char* meaning) {
   return {name, 0, static_cast<double>(found), found == 0, meaning};
 }
 
-/// Returns how many regions have cells of another area than their triangles.
-std::int64_t count_different(const std::vector<std::int64_t>& cells, const std::vector<std::int64_t>& triangles) {
-  std::int64_t different = 0;
-  for (std::size_t k = 0; k < cells.size(); ++k)
-    if (std::fabs(static_cast<double>(cells[k] - triangles[k])) >
-        area_tolerance * static_cast<double>(triangles[k]) + unit_roundings)
-      ++different;
-  return different;
-}
-
 } // namespace
 
 CellProof prove(const mesh::DistributedMesh& mesh, const Cells& cells, std::size_t regions,
                 const comm::Communicator& comm) {
   const CoordinateRange range = range_of(cells, comm);
-  const AreaUnit unit(range.box_area);
+  const AreaSums no_areas(range.box_area, regions);
   const double rounding = 0.5 * coordinate_roundings * std::numeric_limits<double>::epsilon() * range.largest;
-  const SiteTotals sites = count_sites(cells, regions, unit, rounding, comm);
-  const std::vector<std::int64_t> triangles = triangle_areas(mesh, cells, regions, unit, comm);
-  const auto sum_of = [&](const std::vector<std::int64_t>& areas) {
-    std::int64_t sum = 0;
-    for (const std::int64_t area : areas)
-      sum += area;
-    return unit.area(sum);
-  };
+  const SiteTotals sites = count_sites(cells, no_areas, rounding, comm);
+  const AreaSums triangles = triangle_areas(mesh, cells, no_areas, comm);
   const GlobalId points = mesh.point_slab.total, facets = mesh.facet_slab.total, count = mesh.triangle_slab.total;
-  const double area = sum_of(sites.areas), wanted = sum_of(triangles);
+  const double area = sites.areas.total(), wanted = triangles.total();
   // Cells: circumcentres, middles of boundary edges and boundary sites; each edge lies in two cells, those on the
   // boundary in one. Triangles have 3 sides each, which they share except on the boundary.
   const std::int64_t vertices = count + facets + sites.boundary_cells;
@@ -212,7 +234,7 @@ CellProof prove(const mesh::DistributedMesh& mesh, const Cells& cells, std::size
                  area,   sites.smallest_area,  sites.shortest_dual};
   proof.checks = {{"cell_area", wanted, area, std::fabs(area - wanted) <= area_tolerance * wanted,
                    "area of all Voronoi cells; that of the triangles is expected"},
-                  zero("cell_region_areas", count_different(sites.areas, triangles),
+                  zero("cell_region_areas", sites.areas.count_different(triangles),
                        "regions in which the parts of cells have another area than the triangles"),
                   zero("cells_without_area", sites.not_positive, "cells or parts of cells whose area is not positive"),
                   zero("circumcentres_outside", sites.outside,

@@ -19,48 +19,66 @@ struct CornerPlaces {
   void site() { places.push_back({0, 0}); }
 };
 
-std::size_t slot_of(const CellTriangle& triangle, LocalIndex site) {
-  return triangle.corners[0] == site ? 0 : triangle.corners[1] == site ? 1 : 2;
-}
+/// Adds up the triangles between the first corner of a polygon and each of its sides, so that little cancels.
+class MomentSum {
+public:
+  void add(Vec2 corner) {
+    if (!has_first_)
+      first_ = corner;
+    has_first_ = true;
+    const Vec2 next = corner - first_;
+    const double part = cross(last_, next);
+    twice_ += part;
+    sum_ = sum_ + part * (last_ + next);
+    last_ = next;
+  }
+  Moments moments() const { return {0.5 * twice_, first_ + (1 / (3 * twice_)) * sum_}; }
+
+private:
+  bool has_first_ = false;
+  Vec2 first_{0, 0}, last_{0, 0}, sum_{0, 0}; // the last one relative to the first one
+  double twice_ = 0;
+};
+
+/// Adds up the corners of a part.
+struct PartMoments {
+  const Surroundings& around;
+  MomentSum sum{};
+
+  void centre(std::size_t triangle) { sum.add(around.centres[triangle]); }
+  void middle(std::size_t spoke) { sum.add(around.middle(spoke)); }
+  void site() { sum.add({0, 0}); }
+};
 
 } // namespace
 
-std::optional<std::size_t> Surroundings::left(std::size_t spoke) const {
-  return spoke < triangles.size() ? std::optional(spoke) : std::nullopt;
-}
-
-std::optional<std::size_t> Surroundings::right(std::size_t spoke) const {
-  if (spoke > 0)
-    return spoke - 1;
-  return is_closed ? std::optional(triangles.size() - 1) : std::nullopt;
-}
-
-bool Surroundings::is_divided_at(std::size_t spoke) const {
-  const auto on_left = left(spoke), on_right = right(spoke);
-  return !on_left || !on_right || regions[*on_left] != regions[*on_right];
-}
-
 void look_around(const Cells& cells, LocalIndex site, Surroundings& around) {
   const Fan fan = cells.fan(site);
+  const std::size_t count = fan.triangles.size(), spokes = count + (fan.is_closed ? 0 : 1);
   const Vec2 place = cells.points[at(site)];
   around.is_closed = fan.is_closed;
   around.triangles.assign(fan.triangles.begin(), fan.triangles.end());
-  around.ends.clear();
-  around.centres.clear();
-  around.regions.clear();
-  for (const LocalIndex t : fan.triangles) {
-    const CellTriangle& triangle = cells.triangles[at(t)];
-    around.ends.push_back(triangle.corners[(slot_of(triangle, site) + 1) % 3]);
-    around.regions.push_back(triangle.region);
-    around.centres.push_back(difference(cells.points[at(triangle.corners[0])], place, cells.period) + triangle.centre);
+  around.regions.resize(count);
+  around.centres.resize(count);
+  around.ends.resize(spokes);
+  around.arms.resize(spokes);
+  for (std::size_t k = 0; k < count; ++k) {
+    const CellTriangle& triangle = cells.triangles[at(fan.triangles[k])];
+    around.ends[k] = triangle.corner_behind(site, 1);
+    if (k + 1 == count && !fan.is_closed)
+      around.ends[count] = triangle.corner_behind(site, 2);
+    around.regions[k] = triangle.region;
+    around.centres[k] = cells.centre_from(place, triangle);
   }
-  if (!fan.is_closed) {
-    const CellTriangle& last = cells.triangles[at(fan.triangles.back())];
-    around.ends.push_back(last.corners[(slot_of(last, site) + 2) % 3]);
-  }
-  around.arms.clear();
-  for (const LocalIndex end : around.ends)
-    around.arms.push_back(difference(cells.points[at(end)], place, cells.period));
+  for (std::size_t k = 0; k < spokes; ++k)
+    around.arms[k] = difference(cells.points[at(around.ends[k])], place, cells.period);
+}
+
+Moments moments_inside(const Cells& cells, LocalIndex site) {
+  MomentSum sum;
+  for (const LocalIndex triangle : cells.fan(site).triangles)
+    sum.add(cells.centre_from(cells.points[at(site)], cells.triangles[at(triangle)]));
+  return sum.moments();
 }
 
 std::vector<CellPart> parts_of(const Surroundings& around) {
@@ -80,12 +98,14 @@ std::vector<CellPart> parts_of(const Surroundings& around) {
 }
 
 CellPart whole_cell(const Surroundings& around) {
+  if (!around.is_divided())
+    return {around.regions[0], 0, around.triangles.size(), true};
   const std::vector<CellPart> parts = parts_of(around);
   if (parts.size() == 1)
     return parts[0];
   std::map<std::int32_t, double> areas;
   for (const CellPart& part : parts)
-    areas[part.region] += moments_of(corners_of(around, part)).area;
+    areas[part.region] += moments_of(around, part).area;
   auto largest = areas.begin();
   for (auto region = areas.begin(); region != areas.end(); ++region)
     if (region->second > largest->second)
@@ -100,15 +120,16 @@ std::vector<Vec2> corners_of(const Surroundings& around, const CellPart& part) {
 }
 
 Moments moments_of(std::span<const Vec2> corners) {
-  double twice = 0;
-  Vec2 sum{0, 0};
-  for (std::size_t k = 0; k < corners.size(); ++k) { // relative to the first corner, so that little cancels
-    const Vec2 a = corners[k] - corners[0], b = corners[(k + 1) % corners.size()] - corners[0];
-    const double part = cross(a, b);
-    twice += part;
-    sum = sum + part * (a + b);
-  }
-  return {0.5 * twice, corners[0] + (1 / (3 * twice)) * sum};
+  MomentSum sum;
+  for (const Vec2 corner : corners)
+    sum.add(corner);
+  return sum.moments();
+}
+
+Moments moments_of(const Surroundings& around, const CellPart& part) {
+  PartMoments corners{around};
+  for_each_corner(around, part, corners);
+  return corners.sum.moments();
 }
 
 double half_dual_length(const Surroundings& around, std::size_t spoke, std::size_t triangle) {

@@ -21,10 +21,24 @@ struct Surroundings {
   std::vector<std::int32_t> regions;   ///< by triangle
 
   /// Return the triangle on the left or on the right of a spoke; none outside of the mesh.
-  std::optional<std::size_t> left(std::size_t spoke) const;
-  std::optional<std::size_t> right(std::size_t spoke) const;
+  std::optional<std::size_t> left(std::size_t spoke) const {
+    return spoke < triangles.size() ? std::optional(spoke) : std::nullopt;
+  }
+  std::optional<std::size_t> right(std::size_t spoke) const {
+    return spoke > 0 ? std::optional(spoke - 1) : is_closed ? std::optional(triangles.size() - 1) : std::nullopt;
+  }
   /// Returns whether the cell is divided at the middle of this spoke: at the boundary, or between two regions.
-  bool is_divided_at(std::size_t spoke) const;
+  bool is_divided_at(std::size_t spoke) const {
+    const auto on_left = left(spoke), on_right = right(spoke);
+    return !on_left || !on_right || regions[*on_left] != regions[*on_right];
+  }
+  /// Returns whether the cell has several parts, or lies at the boundary.
+  bool is_divided() const {
+    for (std::size_t spoke = 0; spoke < arms.size(); ++spoke)
+      if (is_divided_at(spoke))
+        return true;
+    return false;
+  }
   /// Returns the middle of a spoke.
   geometry::Vec2 middle(std::size_t spoke) const { return 0.5 * arms[spoke]; }
   /// Returns the spoke that follows after some steps counter-clockwise.
@@ -33,6 +47,16 @@ struct Surroundings {
 
 /// Looks around a site of this rank. `around` is a buffer.
 void look_around(const Cells& cells, LocalIndex site, Surroundings& around);
+
+/// Calls use(end) for the neighbours of a site as Surroundings::ends lists them, which is faster than to look around.
+template <class Use>
+void for_each_end(const Cells& cells, LocalIndex site, const Use& use) {
+  const Fan fan = cells.fan(site);
+  for (const LocalIndex triangle : fan.triangles)
+    use(cells.triangles[at(triangle)].corner_behind(site, 1));
+  if (!fan.is_closed)
+    use(cells.triangles[at(fan.triangles.back())].corner_behind(site, 2));
+}
 
 /// @brief A part of a cell: a run of triangles of one region. Its corners are the circumcentres of these triangles. If
 /// the part is not a whole cell inside the mesh, the middle of the spoke before them comes first, and the middle of the
@@ -46,6 +70,16 @@ struct CellPart {
 
 /// Returns the parts of a cell, one for each run of triangles of one region.
 std::vector<CellPart> parts_of(const Surroundings& around);
+/// Calls use(part) for each part of a cell; most cells have one, which needs no list.
+template <class Use>
+void for_each_part(const Surroundings& around, const Use& use) {
+  if (!around.is_divided()) {
+    use(CellPart{around.regions[0], 0, around.triangles.size(), true});
+    return;
+  }
+  for (const CellPart& part : parts_of(around))
+    use(part);
+}
 /// Returns the whole cell as one part, with the region of its largest share; among equal ones the lowest number.
 CellPart whole_cell(const Surroundings& around);
 
@@ -72,6 +106,10 @@ struct Moments {
 };
 /// @pre the area is not zero
 Moments moments_of(std::span<const geometry::Vec2> corners);
+/// Returns those of a part, relative to the site, without a list of its corners.
+Moments moments_of(const Surroundings& around, const CellPart& part);
+/// Returns those of a cell that lies inside of one region, see Cells::region_inside, with the same bits.
+Moments moments_inside(const Cells& cells, LocalIndex site);
 
 /// @brief Returns the signed length of the dual edge of a spoke within one triangle next to it: from the middle of the
 /// spoke to the circumcentre, positive towards the triangle. It is half of the spoke times the cotangent of the angle

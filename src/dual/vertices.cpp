@@ -54,10 +54,7 @@ CellVertices::CellVertices(const Cells& cells, const comm::Communicator& comm) :
 void CellVertices::find() {
   Surroundings around;
   for (LocalIndex site = 0; site < cells_.site_count; ++site) {
-    const Fan fan = cells_.fan(site);
-    const auto region = [&](LocalIndex t) { return cells_.triangles[at(t)].region; };
-    if (fan.is_closed && std::all_of(fan.triangles.begin(), fan.triangles.end(),
-                                     [&](LocalIndex t) { return region(t) == region(fan.triangles[0]); }))
+    if (cells_.region_inside(site) != 0)
       continue;
     look_around(cells_, site, around);
     const Vec2 place = cells_.points[at(site)];
@@ -70,7 +67,7 @@ void CellVertices::find() {
         places_[is_facet ? facet_middles : interface_middles].push_back(place + around.middle(spoke));
     }
     site_vertices_.push_back({site, -1});
-    places_[fan.is_closed ? interface_sites : boundary_sites].push_back(place);
+    places_[around.is_closed ? interface_sites : boundary_sites].push_back(place);
   }
 }
 

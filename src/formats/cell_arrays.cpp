@@ -38,13 +38,15 @@ struct Counted {
     for (auto& list : before)
       list.push_back(0);
     for (LocalIndex site = 0; site < cells.site_count; ++site) {
-      dual::look_around(cells, site, around);
-      for (const CellPart& part : dual::parts_of(around)) {
-        ++sums[parts];
-        sums[corners] += static_cast<std::int64_t>(part.triangles) + (part.is_round ? 0 : 3);
+      std::int64_t of_site = 1;
+      sums[corners] += std::ssize(cells.fan(site).triangles);
+      if (cells.region_inside(site) == 0) { // its parts have three corners more than triangles
+        dual::look_around(cells, site, around);
+        of_site = std::ssize(dual::parts_of(around));
+        sums[corners] += 3 * of_site;
       }
-      sums[faces] +=
-          std::count_if(around.ends.begin(), around.ends.end(), [&](LocalIndex end) { return has_face(site, end); });
+      sums[parts] += of_site;
+      dual::for_each_end(cells, site, [&](LocalIndex end) { sums[faces] += has_face(site, end) ? 1 : 0; });
       for (std::size_t k = 0; k < 3; ++k)
         before[k].push_back(sums[k]);
     }
@@ -62,7 +64,21 @@ struct Counted {
 
 using Shared = std::shared_ptr<const Counted>;
 
-/// Returns rows. append(site, around, list) makes those that belong to a site.
+/// Looks around a site only if this is asked for: most cells lie inside of one region, and need no geometry.
+class Sight {
+public:
+  explicit Sight(const dual::Cells& cells) : cells_(cells) {}
+  const Surroundings& around(LocalIndex site) {
+    dual::look_around(cells_, site, around_);
+    return around_;
+  }
+
+private:
+  const dual::Cells& cells_;
+  Surroundings around_;
+};
+
+/// Returns rows. append(site, sight, list) makes those that belong to a site.
 template <class Row, class Append>
 io::ExtraRows rows_of_sites(const Shared& counted, Counted::Kind kind, const Append& append) {
   return {counted->first[kind], counted->before[kind].back(),
@@ -70,12 +86,11 @@ io::ExtraRows rows_of_sites(const Shared& counted, Counted::Kind kind, const App
             const std::vector<std::int64_t>& before = counted->before[kind];
             auto site =
                 static_cast<LocalIndex>(std::upper_bound(before.begin(), before.end(), begin) - before.begin() - 1);
-            Surroundings around;
+            Sight sight(counted->cells);
             std::vector<Row> rows;
             for (std::int64_t row = begin; row < begin + count; ++site) {
               rows.clear();
-              dual::look_around(counted->cells, site, around);
-              append(site, around, rows);
+              append(site, sight, rows);
               const std::int64_t skipped = row - before[at(site)];
               const std::int64_t taken = std::min(std::ssize(rows) - skipped, begin + count - row);
               std::memcpy(out + static_cast<std::size_t>(row - begin) * sizeof(Row), rows.data() + skipped,
@@ -85,11 +100,17 @@ io::ExtraRows rows_of_sites(const Shared& counted, Counted::Kind kind, const App
           }};
 }
 
-/// Returns rows with a value of each part of a cell.
-template <class Row, class Value>
-io::ExtraRows rows_of_parts(const Shared& counted, const Value& value) {
+/// Returns rows with a value of each part of a cell: inside(site) for a cell inside of one region, and otherwise
+/// value(site, around, part).
+template <class Row, class Inside, class Value>
+io::ExtraRows rows_of_parts(const Shared& counted, const Inside& inside, const Value& value) {
   return rows_of_sites<Row>(counted, Counted::parts,
-                            [value](LocalIndex site, const Surroundings& around, std::vector<Row>& rows) {
+                            [counted, inside, value](LocalIndex site, Sight& sight, std::vector<Row>& rows) {
+                              if (counted->cells.region_inside(site) != 0) {
+                                rows.push_back(inside(site));
+                                return;
+                              }
+                              const Surroundings& around = sight.around(site);
                               for (const CellPart& part : dual::parts_of(around))
                                 rows.push_back(value(site, around, part));
                             });
@@ -99,11 +120,23 @@ io::ExtraRows rows_of_parts(const Shared& counted, const Value& value) {
 template <class Row, class Value>
 io::ExtraRows rows_of_faces(const Shared& counted, const Value& value) {
   return rows_of_sites<Row>(counted, Counted::faces,
-                            [counted, value](LocalIndex site, const Surroundings& around, std::vector<Row>& rows) {
+                            [counted, value](LocalIndex site, Sight& sight, std::vector<Row>& rows) {
+                              const Surroundings& around = sight.around(site);
                               for (std::size_t spoke = 0; spoke < around.arms.size(); ++spoke)
                                 if (counted->has_face(site, around.ends[spoke]))
-                                  rows.push_back(value(site, around, spoke));
+                                  rows.push_back(value(around, spoke));
                             });
+}
+
+/// Returns rows with a value of the two cells of each face: value(site, end).
+template <class Row, class Value>
+io::ExtraRows rows_of_neighbours(const Shared& counted, const Value& value) {
+  return rows_of_sites<Row>(counted, Counted::faces, [counted, value](LocalIndex site, Sight&, std::vector<Row>& rows) {
+    dual::for_each_end(counted->cells, site, [&](LocalIndex end) {
+      if (counted->has_face(site, end))
+        rows.push_back(value(site, end));
+    });
+  });
 }
 
 io::ExtraArray vertex_array(const Shared& counted) {
@@ -132,11 +165,15 @@ io::ExtraArray vertex_array(const Shared& counted) {
 io::ExtraArray first_corners(const Shared& counted, bool is_root) {
   const std::int64_t parts = counted->totals[Counted::parts], corners = counted->totals[Counted::corners];
   io::ExtraRows starts = rows_of_sites<std::int64_t>(
-      counted, Counted::parts, [counted](LocalIndex site, const Surroundings& around, std::vector<std::int64_t>& rows) {
+      counted, Counted::parts, [counted](LocalIndex site, Sight& sight, std::vector<std::int64_t>& rows) {
         std::int64_t corner = counted->first[Counted::corners] + counted->before[Counted::corners][at(site)];
-        for (const CellPart& part : dual::parts_of(around)) {
+        if (counted->cells.region_inside(site) != 0) {
           rows.push_back(corner);
-          corner += static_cast<std::int64_t>(part.triangles) + (part.is_round ? 0 : 3);
+          return;
+        }
+        for (const CellPart& part : dual::parts_of(sight.around(site))) {
+          rows.push_back(corner);
+          corner += static_cast<std::int64_t>(part.triangles) + 3;
         }
       });
   io::ExtraRows end{parts, is_root ? 1 : 0, [corners](std::int64_t, std::int64_t count, std::byte* out) {
@@ -144,6 +181,19 @@ io::ExtraArray first_corners(const Shared& counted, bool is_root) {
                         std::memcpy(out, &corners, sizeof corners);
                     }};
   return {"corner_first", io::ValueType::int64, 0, parts + 1, {std::move(starts), std::move(end)}};
+}
+
+/// Appends the vertices at the corners of the parts of a cell.
+void append_corners(const Counted& counted, LocalIndex site, Sight& sight, std::vector<GlobalId>& rows) {
+  if (counted.cells.region_inside(site) != 0) {
+    for (const LocalIndex triangle : counted.cells.fan(site).triangles)
+      rows.push_back(counted.cells.triangles[at(triangle)].number);
+    return;
+  }
+  const Surroundings& around = sight.around(site);
+  for (const CellPart& part : dual::parts_of(around))
+    for (const dual::CellCorner& corner : counted.vertices.corners(around, site, part))
+      rows.push_back(corner.vertex);
 }
 
 void add_polygons(const Shared& counted, bool is_root, io::ExtraGroup& group) {
@@ -155,85 +205,76 @@ void add_polygons(const Shared& counted, bool is_root, io::ExtraGroup& group) {
        int64,
        0,
        counted->totals[Counted::corners],
-       {rows_of_sites<GlobalId>(counted, Counted::corners,
-                                [counted](LocalIndex site, const Surroundings& around, std::vector<GlobalId>& rows) {
-                                  for (const CellPart& part : dual::parts_of(around))
-                                    for (const dual::CellCorner& corner : counted->vertices.corners(around, site, part))
-                                      rows.push_back(corner.vertex);
-                                })}});
+       {rows_of_sites<GlobalId>(counted, Counted::corners, [counted](LocalIndex site, Sight& sight, auto& rows) {
+         append_corners(*counted, site, sight, rows);
+       })}});
 }
 
 void add_values(const Shared& counted, io::ExtraGroup& group) {
   using enum io::ValueType;
   const std::int64_t parts = counted->totals[Counted::parts];
-  group.arrays.push_back(
-      {"sites",
-       int64,
-       0,
-       parts,
-       {rows_of_parts<GlobalId>(counted, [counted](LocalIndex site, const Surroundings&, const CellPart&) {
-         return counted->cells.number_of(site);
-       })}});
-  group.arrays.push_back({"regions",
-                          int32,
-                          0,
-                          parts,
-                          {rows_of_parts<std::int32_t>(counted, [](LocalIndex, const Surroundings&,
-                                                                   const CellPart& part) { return part.region; })}});
-  group.arrays.push_back(
-      {"areas",
-       float64,
-       0,
-       parts,
-       {rows_of_parts<double>(counted, [](LocalIndex, const Surroundings& around, const CellPart& part) {
-         return dual::moments_of(dual::corners_of(around, part)).area;
-       })}});
-  group.arrays.push_back(
-      {"centroids",
-       float64,
-       2,
-       parts,
-       {rows_of_parts<Vec2>(counted, [counted](LocalIndex site, const Surroundings& around, const CellPart& part) {
-         return counted->cells.points[at(site)] + dual::moments_of(dual::corners_of(around, part)).centroid;
-       })}});
+  const auto add = [&](const char* name, io::ValueType type, int columns, io::ExtraRows rows) {
+    group.arrays.push_back({name, type, columns, parts, {std::move(rows)}});
+  };
+  const auto number = [counted](LocalIndex site) { return counted->cells.number_of(site); };
+  add("sites", int64, 0,
+      rows_of_parts<GlobalId>(
+          counted, number, [number](LocalIndex site, const Surroundings&, const CellPart&) { return number(site); }));
+  add("regions", int32, 0,
+      rows_of_parts<std::int32_t>(
+          counted, [counted](LocalIndex site) { return counted->cells.region_inside(site); },
+          [](LocalIndex, const Surroundings&, const CellPart& part) { return part.region; }));
+  add("areas", float64, 0,
+      rows_of_parts<double>(
+          counted, [counted](LocalIndex site) { return dual::moments_inside(counted->cells, site).area; },
+          [](LocalIndex, const Surroundings& around, const CellPart& part) {
+            return dual::moments_of(around, part).area;
+          }));
+  const auto place = [counted](LocalIndex site) { return counted->cells.points[at(site)]; };
+  add("centroids", float64, 2,
+      rows_of_parts<Vec2>(
+          counted,
+          [counted, place](LocalIndex site) {
+            return place(site) + dual::moments_inside(counted->cells, site).centroid;
+          },
+          [place](LocalIndex site, const Surroundings& around, const CellPart& part) {
+            return place(site) + dual::moments_of(around, part).centroid;
+          }));
 }
 
 void add_faces(const Shared& counted, io::ExtraGroup& group) {
   using enum io::ValueType;
   const std::int64_t faces = counted->totals[Counted::faces];
-  group.arrays.push_back(
-      {"faces",
-       int64,
-       2,
-       faces,
-       {rows_of_faces<std::array<GlobalId, 2>>(
-           counted, [counted](LocalIndex site, const Surroundings& around, std::size_t spoke) {
-             return std::array{counted->cells.number_of(site), counted->cells.number_of(around.ends[spoke])};
-           })}});
-  group.arrays.push_back(
-      {"face_distances",
-       float64,
-       0,
-       faces,
-       {rows_of_faces<double>(counted, [](LocalIndex, const Surroundings& around, std::size_t spoke) {
-         return length(around.arms[spoke]);
-       })}});
-  group.arrays.push_back(
-      {"face_lengths",
-       float64,
-       2,
-       faces,
-       {rows_of_faces<std::array<double, 2>>(counted, [](LocalIndex, const Surroundings& around, std::size_t spoke) {
-         return dual::face_of(around, spoke).dual_lengths;
-       })}});
-  group.arrays.push_back({"face_regions",
-                          int32,
-                          2,
-                          faces,
-                          {rows_of_faces<std::array<std::int32_t, 2>>(
-                              counted, [](LocalIndex, const Surroundings& around, std::size_t spoke) {
-                                return dual::face_of(around, spoke).regions;
-                              })}});
+  const auto add = [&](const char* name, io::ValueType type, int columns, io::ExtraRows rows) {
+    group.arrays.push_back({name, type, columns, faces, {std::move(rows)}});
+  };
+  add("faces", int64, 2,
+      rows_of_neighbours<std::array<GlobalId, 2>>(counted, [counted](LocalIndex site, LocalIndex end) {
+        return std::array{counted->cells.number_of(site), counted->cells.number_of(end)};
+      }));
+  add("face_distances", float64, 0, rows_of_neighbours<double>(counted, [counted](LocalIndex site, LocalIndex end) {
+        const dual::Cells& cells = counted->cells;
+        return length(dual::difference(cells.points[at(end)], cells.points[at(site)], cells.period));
+      }));
+  add("face_lengths", float64, 2,
+      rows_of_faces<std::array<double, 2>>(counted, [](const Surroundings& around, std::size_t spoke) {
+        return dual::face_of(around, spoke).dual_lengths;
+      }));
+  add("face_regions", int32, 2,
+      rows_of_sites<std::array<std::int32_t, 2>>(
+          counted, Counted::faces, [counted](LocalIndex site, Sight& sight, auto& rows) {
+            if (const std::int32_t region = counted->cells.region_inside(site); region != 0) {
+              dual::for_each_end(counted->cells, site, [&](LocalIndex end) {
+                if (counted->has_face(site, end))
+                  rows.push_back({region, 0});
+              });
+              return;
+            }
+            const Surroundings& around = sight.around(site);
+            for (std::size_t spoke = 0; spoke < around.arms.size(); ++spoke)
+              if (counted->has_face(site, around.ends[spoke]))
+                rows.push_back(dual::face_of(around, spoke).regions);
+          }));
 }
 
 } // namespace

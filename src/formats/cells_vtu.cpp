@@ -28,7 +28,15 @@ struct Image {
   Vec2 place;
 };
 
-/// The cells with what the file counts: corners and parts before each site, and images of vertices.
+/// A cell that the boundary or regions divide, and what is counted before it on this rank.
+struct DividedCell {
+  LocalIndex site;
+  std::int64_t parts_before; ///< of cells that are divided
+  std::vector<std::int32_t> regions;
+};
+
+/// The cells with what the file counts: cells that are divided, and images of vertices. All other cells have one part,
+/// whose corners are the circumcentres of their triangles, so most arrays need no geometry.
 class CellFile {
 public:
   explicit CellFile(const ExchangeMesh& mesh) : cells_(std::make_shared<const CellMesh>(mesh)) {
@@ -51,33 +59,58 @@ public:
   }
 
 private:
+  using DividedCells = std::vector<DividedCell>; // by site
+
   GlobalId vertices() const { return cells_->vertices().count() + totals_[2]; }
+  bool is_periodic() const { return cells_->cells().period.x > 0 || cells_->cells().period.y > 0; }
 
   void count() {
     const dual::Cells& cells = cells_->cells();
-    const bool is_periodic = cells.period.x > 0 || cells.period.y > 0;
+    std::int64_t parts = 0; // of cells that are divided
     Surroundings around;
     for (LocalIndex site = 0; site < cells.site_count; ++site) {
-      corners_before_->push_back(corners_);
+      const bool is_inside = cells.region_inside(site) != 0;
+      if (is_inside && !is_periodic())
+        continue;
       dual::look_around(cells, site, around);
-      for (const CellPart& part : dual::parts_of(around)) {
-        ++parts_;
-        corners_ += static_cast<std::int64_t>(part.triangles) + (part.is_round ? 0 : 3);
-        if (is_periodic)
-          for (const dual::CellCorner& corner : cells_->vertices().corners(around, site, part))
-            if (corner.is_image)
-              images_->push_back({site, cells.points[at(site)] + corner.place});
+      if (!is_inside) {
+        DividedCell& cell = divided_->emplace_back(DividedCell{site, parts, {}});
+        for (const CellPart& part : dual::parts_of(around))
+          cell.regions.push_back(part.region);
+        parts += std::ssize(cell.regions);
       }
+      if (is_periodic())
+        add_images(site, around);
     }
+    parts_ = cells.site_count - std::ssize(*divided_) + parts;
+    corners_ = cells.fan_first.back() + 3 * parts;
   }
 
-  /// Rows with append(part, around, site, text) for each part of each cell.
+  void add_images(LocalIndex site, const Surroundings& around) {
+    for (const CellPart& part : dual::parts_of(around))
+      for (const dual::CellCorner& corner : cells_->vertices().corners(around, site, part))
+        if (corner.is_image)
+          images_->push_back({site, cells_->cells().points[at(site)] + corner.place});
+  }
+
+  static DividedCells::const_iterator first_from(const DividedCells& divided, LocalIndex site) {
+    return std::lower_bound(divided.begin(), divided.end(), site,
+                            [](const DividedCell& cell, LocalIndex wanted) { return cell.site < wanted; });
+  }
+
+  /// Rows with append(region, site, text) for each part of each cell.
   template <class Append>
   io::TextRows part_rows(const Append& append) const {
-    return site_rows(cells_, [append](LocalIndex site, const Surroundings& around, std::string& to) {
-      for (const CellPart& part : dual::parts_of(around))
-        append(part, around, site, to);
-    });
+    return {cells_->cells().site_count,
+            [cells = cells_, divided = divided_, append](std::int64_t row, std::string& to) {
+              const auto site = static_cast<LocalIndex>(row);
+              if (const std::int32_t region = cells->cells().region_inside(site); region != 0) {
+                append(region, site, to);
+                return;
+              }
+              for (const std::int32_t region : first_from(*divided, site)->regions)
+                append(region, site, to);
+            }};
   }
 
   void add_points(std::string& xml, VtuArrays& data) const {
@@ -90,67 +123,114 @@ private:
     data.add(vertices() * 24, rows);
   }
 
-  void add_polygons(std::string& xml, VtuArrays& data) const {
-    xml += "<Cells>\n" + data.describe("Int64", "connectivity", 1);
+  io::TextRows corner_rows() const {
     const auto images = images_;
     const GlobalId first_image = cells_->vertices().count() + before_[2];
-    data.add(8 * totals_[0], {site_rows(cells_, [cells = cells_, images, first_image](
-                                                    LocalIndex site, const Surroundings& around, std::string& to) {
-               GlobalId image = first_image +
-                                (std::lower_bound(images->begin(), images->end(), site,
-                                                  [](const Image& at, LocalIndex wanted) { return at.site < wanted; }) -
-                                 images->begin());
-               for (const CellPart& part : dual::parts_of(around))
-                 for (const dual::CellCorner& corner : cells->vertices().corners(around, site, part))
-                   append_bytes(to, corner.is_image ? image++ : corner.vertex);
-             })});
+    return site_rows(
+        cells_, [cells = cells_, images, first_image](LocalIndex site, const Surroundings& around, std::string& to) {
+          GlobalId image =
+              first_image + (std::lower_bound(images->begin(), images->end(), site,
+                                              [](const Image& at, LocalIndex wanted) { return at.site < wanted; }) -
+                             images->begin());
+          for (const CellPart& part : dual::parts_of(around))
+            for (const dual::CellCorner& corner : cells->vertices().corners(around, site, part))
+              append_bytes(to, corner.is_image ? image++ : corner.vertex);
+        });
+  }
+
+  /// Returns the same rows for a mesh in which no vertex has an image.
+  io::TextRows plain_corner_rows() const {
+    return {cells_->cells().site_count, [cells = cells_](std::int64_t row, std::string& to) {
+              const dual::Cells& all = cells->cells();
+              const auto site = static_cast<LocalIndex>(row);
+              if (all.region_inside(site) != 0) {
+                for (const LocalIndex triangle : all.fan(site).triangles)
+                  append_bytes(to, all.triangles[at(triangle)].number);
+                return;
+              }
+              Surroundings around;
+              dual::look_around(all, site, around);
+              for (const CellPart& part : dual::parts_of(around))
+                for (const dual::CellCorner& corner : cells->vertices().corners(around, site, part))
+                  append_bytes(to, corner.vertex);
+            }};
+  }
+
+  /// The number of corners of all cells up to each part. A part of a divided cell has three more than triangles.
+  io::TextRows end_rows() const {
+    return {cells_->cells().site_count,
+            [before = before_[0], cells = cells_, divided = divided_](std::int64_t row, std::string& to) {
+              const dual::Cells& all = cells->cells();
+              const auto site = static_cast<LocalIndex>(row);
+              const auto next = first_from(*divided, site);
+              const std::int64_t parts = next != divided->end() ? next->parts_before
+                                         : divided->empty()
+                                             ? 0
+                                             : divided->back().parts_before + std::ssize(divided->back().regions);
+              std::int64_t end = before + all.fan_first[at(site)] + 3 * parts;
+              if (next == divided->end() || next->site != site) {
+                append_bytes(to, end + std::ssize(all.fan(site).triangles));
+                return;
+              }
+              Surroundings around;
+              dual::look_around(all, site, around);
+              for (const CellPart& part : dual::parts_of(around)) {
+                end += static_cast<std::int64_t>(part.triangles) + 3;
+                append_bytes(to, end);
+              }
+            }};
+  }
+
+  void add_polygons(std::string& xml, VtuArrays& data) const {
+    xml += "<Cells>\n" + data.describe("Int64", "connectivity", 1);
+    data.add(8 * totals_[0], {is_periodic() ? corner_rows() : plain_corner_rows()});
     xml += data.describe("Int64", "offsets", 1);
-    data.add(8 * totals_[1], {site_rows(cells_, [before = before_[0], by_site = corners_before_](
-                                                    LocalIndex site, const Surroundings& around, std::string& to) {
-               std::int64_t end = before + (*by_site)[at(site)];
-               for (const CellPart& part : dual::parts_of(around)) {
-                 end += static_cast<std::int64_t>(part.triangles) + (part.is_round ? 0 : 3);
-                 append_bytes(to, end);
-               }
-             })});
+    data.add(8 * totals_[1], {end_rows()});
     xml += data.describe("UInt8", "types", 1);
-    data.add(totals_[1], {part_rows([](const CellPart&, const Surroundings&, LocalIndex, std::string& to) {
-               append_bytes(to, vtk_polygon);
-             })});
+    data.add(totals_[1], {part_rows([](std::int32_t, LocalIndex, std::string& to) { append_bytes(to, vtk_polygon); })});
     xml += "</Cells>\n";
+  }
+
+  io::TextRows area_rows() const {
+    return {cells_->cells().site_count, [cells = cells_](std::int64_t row, std::string& to) {
+              const dual::Cells& all = cells->cells();
+              const auto site = static_cast<LocalIndex>(row);
+              if (all.region_inside(site) != 0) {
+                append_bytes(to, dual::moments_inside(all, site).area);
+                return;
+              }
+              Surroundings around;
+              dual::look_around(all, site, around);
+              for (const CellPart& part : dual::parts_of(around))
+                append_bytes(to, dual::moments_of(around, part).area);
+            }};
   }
 
   void add_values(std::string& xml, VtuArrays& data) const {
     xml += "<PointData>\n</PointData>\n<CellData>\n" + data.describe("Int64", "site", 1);
-    data.add(8 * totals_[1],
-             {part_rows([cells = cells_](const CellPart&, const Surroundings&, LocalIndex site, std::string& to) {
+    data.add(8 * totals_[1], {part_rows([cells = cells_](std::int32_t, LocalIndex site, std::string& to) {
                append_bytes(to, cells->cells().number_of(site));
              })});
     xml += data.describe("Float64", "site_place", 3);
-    data.add(24 * totals_[1],
-             {part_rows([cells = cells_](const CellPart&, const Surroundings&, LocalIndex site, std::string& to) {
+    data.add(24 * totals_[1], {part_rows([cells = cells_](std::int32_t, LocalIndex site, std::string& to) {
                append_place(cells->cells().points[at(site)], to);
              })});
     xml += data.describe("Float64", "area", 1);
-    data.add(8 * totals_[1],
-             {part_rows([](const CellPart& part, const Surroundings& around, LocalIndex, std::string& to) {
-               append_bytes(to, dual::moments_of(dual::corners_of(around, part)).area);
-             })});
+    data.add(8 * totals_[1], {area_rows()});
     xml += data.describe("Int32", "region", 1);
-    data.add(4 * totals_[1], {part_rows([](const CellPart& part, const Surroundings&, LocalIndex, std::string& to) {
-               append_bytes(to, part.region);
-             })});
+    data.add(4 * totals_[1],
+             {part_rows([](std::int32_t region, LocalIndex, std::string& to) { append_bytes(to, region); })});
     xml += data.describe("Int32", "boundary", 1);
-    data.add(4 * totals_[1], {part_rows([](const CellPart&, const Surroundings& around, LocalIndex, std::string& to) {
-               append_bytes(to, std::int32_t{around.is_closed ? 0 : 1});
+    data.add(4 * totals_[1], {part_rows([cells = cells_](std::int32_t, LocalIndex site, std::string& to) {
+               append_bytes(to, std::int32_t{cells->cells().closed[at(site)] ? 0 : 1});
              })});
     xml += "</CellData>\n";
   }
 
   std::shared_ptr<const CellMesh> cells_;
   std::int64_t corners_ = 0, parts_ = 0; // of this rank
-  std::shared_ptr<std::vector<std::int64_t>> corners_before_ = std::make_shared<std::vector<std::int64_t>>(); // by site
-  std::shared_ptr<std::vector<Image>> images_ = std::make_shared<std::vector<Image>>();                       // by site
+  std::shared_ptr<DividedCells> divided_ = std::make_shared<DividedCells>();
+  std::shared_ptr<std::vector<Image>> images_ = std::make_shared<std::vector<Image>>(); // by site
   std::array<std::int64_t, 3> before_{}, totals_{}; // corners, parts and images on lower ranks and on all ranks
 };
 

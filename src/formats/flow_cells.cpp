@@ -42,8 +42,7 @@ GlobalId FlowCells::count() const {
 
 FlowCell FlowCells::cell_at(const CellMesh& mesh, LocalIndex site, const Surroundings& around) {
   double area = 0;
-  for (const dual::CellPart& part : dual::parts_of(around))
-    area += dual::moments_of(dual::corners_of(around, part)).area;
+  dual::for_each_part(around, [&](const dual::CellPart& part) { area += dual::moments_of(around, part).area; });
   return {mesh.cells().number_of(site), mesh.cells().points[at(site)], area, dual::whole_cell(around).region};
 }
 

@@ -44,7 +44,7 @@ public:
 
   bool are_triangles() const { return are_triangles_; }
   const std::shared_ptr<const CellMesh>& mesh() const { return mesh_; }
-  GlobalId count() const;                                 ///< number of cells over all ranks
+  GlobalId count() const; ///< number of cells over all ranks
   /// Returns the number of faces between cells over all ranks. Collective.
   std::int64_t face_count() const { return count_faces().faces; }
 
@@ -88,8 +88,8 @@ private:
   struct TriangleFacts {
     std::int64_t obtuse = 0;
     double area = 0;
-    double least_cosine = 1;       ///< least cosine of an angle
-    geometry::Vec2 worst{0, 0};    ///< circumcentre of the triangle with the largest angle
+    double least_cosine = 1;    ///< least cosine of an angle
+    geometry::Vec2 worst{0, 0}; ///< circumcentre of the triangle with the largest angle
     FaceCounts faces;
   };
 

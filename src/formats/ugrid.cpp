@@ -227,7 +227,7 @@ void add_cell_values(UgridFile& file, const std::shared_ptr<const CellMesh>& cel
             }));
   file.data("area", "face", NetcdfType::float64, "area of the face",
             part_rows(cells, [](const CellPart& part, const Surroundings& around, LocalIndex, std::string& to) {
-              append_big(to, dual::moments_of(dual::corners_of(around, part)).area);
+              append_big(to, dual::moments_of(around, part).area);
             }));
   file.data("site", "face", file.id_type(), "number of the point of the mesh in the cell",
             part_rows(cells, [cells, type = file.id_type()](const CellPart&, const Surroundings&, LocalIndex site,

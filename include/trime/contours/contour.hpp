@@ -134,9 +134,16 @@ struct FilePoint {
 };
 
 /// @brief Reads points of `.xy` text in the same syntax as parse_xy; ignores blank lines and lines that start with `>`.
+/// If `source` ends with `.geojson` or `.json`, the text is read by parse_geojson_points.
 /// @throws GeometryError `source:line: ...` for a line that does not hold two finite numbers, and for a text without
 /// points
 std::vector<FilePoint> parse_points(std::string_view text, const std::string& source);
+
+/// @brief Reads the geometries Point and MultiPoint of a GeoJSON text, and ignores all others. Coordinates are not
+/// converted.
+/// @throws GeometryError `source:line: ...` for text that is not JSON, a position without two finite numbers, and a
+/// text without points
+std::vector<FilePoint> parse_geojson_points(std::string_view text, const std::string& source);
 
 /// @brief Reads the rings of the polygons in a GeoJSON text (RFC 7946): a geometry, a feature, or a collection of them.
 /// Closed lines are rings as well, and so are lines that form a closed curve together.

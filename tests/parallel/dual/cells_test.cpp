@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -101,6 +102,42 @@ TEST(CellProof, PassesSquaresWithHolesAndRegions) {
     EXPECT_EQ(proof.facts.area, one.facts.area);
     EXPECT_EQ(proof.facts.smallest_area, one.facts.smallest_area);
     EXPECT_EQ(proof.facts.shortest_dual_edge, one.facts.shortest_dual_edge);
+  }
+}
+
+/// A strip of congruent triangles along the diagonal of a square; those at its upper side have another region.
+mesh::DistributedMesh diagonal_strip(int pairs) {
+  const double step = std::ldexp(1.0, -15);
+  mesh::DistributedMesh mesh;
+  std::vector<std::array<GlobalId, 3>> triangles;
+  for (int k = 0; k < pairs; ++k) {
+    mesh.points.push_back({k * step, k * step});
+    mesh.points.push_back({(k + 1.375) * step, (k - 0.375) * step});
+    if (const GlobalId a = 2 * k, b = a + 1; k + 1 < pairs) {
+      triangles.push_back({a, b, a + 2});
+      triangles.push_back({b, b + 2, a + 2});
+      mesh.region.insert(mesh.region.end(), {1, 2});
+      mesh.facets.push_back({a + 2, a});
+      mesh.facets.push_back({b, b + 2});
+    }
+  }
+  const GlobalId last = 2 * pairs - 2;
+  mesh.facets.push_back({0, 1});
+  mesh.facets.push_back({last + 1, last});
+  mesh.point_slab.total = std::ssize(mesh.points);
+  mesh.triangle_slab.total = std::ssize(triangles);
+  mesh.facet_slab.total = std::ssize(mesh.facets);
+  assign_triangles(mesh, triangles);
+  return mesh;
+}
+
+/// The few different areas in such a mesh have roundings that would add up, as they did in a square of 10^7 points.
+TEST(CellProof, RoundingsOfEqualAreasDoNotAddUp) {
+  const comm::Communicator self = comm::Communicator::self();
+  for (const int pairs : {17500, 17750, 18500, 19250}) { // boxes of different areas, so units of different sizes
+    const mesh::DistributedMesh strip = diagonal_strip(pairs);
+    const CellProof proof = prove(strip, make_cells(strip, {0, 0}, self), 2, self);
+    EXPECT_EQ(failed(proof), std::set<std::string>{}) << pairs;
   }
 }
 

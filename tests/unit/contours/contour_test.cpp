@@ -269,6 +269,25 @@ TEST(Contour, SemicolonsBetweenNumbersAllowDecimalCommas) {
   expect_error("10,25;20,5;0\n95;22;0\n12,5;70;0\n", {"map.xy:1", "third column"});
 }
 
+TEST(ReadPoints, OfAMap) {
+  const std::string text = R"({"type": "FeatureCollection", "features": [
+    {"type": "Feature", "properties": {"type": "Point", "coordinates": [9, 9]},
+     "geometry": {"type": "Point", "coordinates": [1.5, 2]}},
+    {"type": "Feature", "properties": {}, "geometry": {"type": "LineString", "coordinates": [[0, 0], [1, 1]]}},
+    {"type": "Feature", "properties": {}, "geometry": {"type": "GeometryCollection", "geometries": [
+      {"type": "MultiPoint", "coordinates": [[3, 4], [5, 6, 7]]}]}}]})";
+  const std::vector<FilePoint> points = parse_points(text, "wells.geojson");
+  ASSERT_EQ(points.size(), 3U);
+  EXPECT_EQ(points[0].position, (Vec2{1.5, 2}));
+  EXPECT_EQ(points[0].line, 3);
+  EXPECT_EQ(points[2].position, (Vec2{5, 6}));
+  EXPECT_EQ(points[2].line, 6);
+  for (const char* bad :
+       {R"({"type": "LineString", "coordinates": [[0, 0], [1, 1]]})", R"({"type": "Point", "coordinates": [1]})",
+        R"({"type": "Point", "coordinates": [1, 1e31]})", R"({"type": "Point", "coordinates": [])"})
+    EXPECT_THROW(parse_points(bad, "wells.json"), GeometryError) << bad;
+}
+
 TEST(Contour, AirfoilsAreOneRing) {
   const std::vector<Vec2> foil{{1, 0.01}, {0.5, 0.1}, {0, 0}, {0.5, -0.05}, {1, -0.01}};
   for (const char* text : {"2032 FOIL\n1 .01\n.5 .1\n0 0\n.5 -.05\n1 -.01\n",

@@ -4,6 +4,7 @@
 
 #include "sizing/coarse_curves.hpp"
 #include "support/boundary_shapes.hpp"
+#include "support/plain_shapes.hpp"
 #include "support/point_sets.hpp"
 
 #include <gtest/gtest.h>
@@ -81,6 +82,21 @@ TEST(BoundaryDistance, IsThatOfTheCurvesFromNearAndFar) {
     EXPECT_NEAR(distance.distance_within(p, 1.5 * expected), expected, tolerance);
     EXPECT_EQ(distance.distance_within(p, 0.5 * expected), 0.5 * expected);
   }
+}
+
+TEST(NamedCurves, HoldTheFixedPoints) {
+  shape::RegionShape square = testing::square();
+  const geometry::Domain& domain = square.domain();
+  EXPECT_EQ(curve_names(domain), domain.boundary().part_names);
+  square.set_fixed_points({{{0.25, 0.5}, "first"}, {{0.75, 0.5}, "second"}});
+  EXPECT_EQ(curve_names(domain).back(), "fixed_points");
+  const BoundaryDistance distance(named_curves(domain), "fixed_points", images_of(domain));
+  for (std::uint64_t k = 0; k < 100; ++k) {
+    const Vec2 p = testing::random_vec2(5, k);
+    const double expected = std::fmin(length(p - Vec2{0.25, 0.5}), length(p - Vec2{0.75, 0.5}));
+    EXPECT_NEAR(distance.distance(p), expected, 7e-4 * expected);
+  }
+  EXPECT_EQ(distance.distance({0.25, 0.5}), 0);
 }
 
 } // namespace
