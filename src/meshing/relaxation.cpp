@@ -93,6 +93,8 @@ void Relaxation::follow(Sweeper& sweeper) {
 /// Measures the mesh; the sums steer the next move.
 void Relaxation::record(const sites::Stage& stage, int stage_number, Sweeper& sweeper) {
   const auto time = run_.timers.scope("measure");
+  if (run_.sweeps.star_tests.verify)
+    sweeper.verify_measures(stage.typical_size);
   sweep::SweepSummary summary =
       sweep::summarize_sweep(*stage.state, sweeper, counts_, stage.typical_size, stage.placed_first());
   summary.record.sweep = sweeps_;

@@ -5,6 +5,7 @@
 #include "geometry/predicates.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace trime::sites {
 namespace {
@@ -13,6 +14,10 @@ using geometry::Vec2;
 
 /// Distances are compared with so much room that rounding cannot lose a change.
 constexpr double room_for_rounding = 1 + 1e-9;
+
+/// [1] The circumradius of a triangle whose sine at the site is smaller than this is not computed: rounding could
+/// make it too small.
+constexpr double least_sine = 1e-4;
 
 bool has_member_gap(const delaunay::StarTable& stars, LocalIndex i) {
   return stars.degree(i) < 3 || stars.has_gap(i);
@@ -26,6 +31,24 @@ bool reaches(const mesh::BinnedPoints& points, std::span<const LocalIndex> ring,
       return true;
   }
   return false;
+}
+
+/// Returns a bound on the squared distance from a site to any point in the disc of a triangle of its star: the square
+/// of the longest circumdiameter. @pre the ring has no gap
+double squared_reach_of_ring(const mesh::BinnedPoints& points, std::span<const LocalIndex> ring, Vec2 center) {
+  double largest = 0;
+  Vec2 a = points.position(ring.back()) - center;
+  double a2 = geometry::squared_length(a);
+  for (const LocalIndex neighbour : ring) {
+    const Vec2 b = points.position(neighbour) - center;
+    const double b2 = geometry::squared_length(b), cross = geometry::cross(a, b), product = a2 * b2;
+    if (!(cross * cross > least_sine * least_sine * product))
+      return INFINITY;
+    largest = std::max(largest, product * geometry::squared_length(b - a) / (cross * cross));
+    a = b;
+    a2 = b2;
+  }
+  return largest * (room_for_rounding * room_for_rounding);
 }
 
 /// The changes near one tile, for its stars one after the other.
@@ -59,13 +82,22 @@ private:
         near.push_back(*change);
   }
 
+  /// Few changes are near a star: those that are at most as far along x as the discs of its triangles reach.
   bool may_change(LocalIndex i, std::span<const ChangedPlace> near) const {
     const Vec2 center = points_.position(i);
-    const double reach = reach_of(i);
-    return std::any_of(near.begin(), near.end(), [&](const ChangedPlace& change) {
-      return geometry::squared_length(change.place - center) <= reach * reach &&
-             (has_member_gap(stars_, i) || (change.comes && reaches(points_, stars_.ring(i), center, change.place)));
-    });
+    const bool has_gap = has_member_gap(stars_, i);
+    const std::span<const LocalIndex> ring = stars_.ring(i);
+    double squared_reach = reach_of(i) * reach_of(i);
+    if (!has_gap)
+      squared_reach = std::min(squared_reach, squared_reach_of_ring(points_, ring, center));
+    const double reach = std::sqrt(squared_reach) * room_for_rounding;
+    auto change = std::lower_bound(near.begin(), near.end(), center.x - reach,
+                                   [](const ChangedPlace& a, double low) { return a.place.x < low; });
+    for (; change != near.end() && change->place.x <= center.x + reach; ++change)
+      if (geometry::squared_length(change->place - center) <= squared_reach &&
+          (has_gap || (change->comes && reaches(points_, ring, center, change->place))))
+        return true;
+    return false;
   }
 
   const mesh::BinnedPoints& points_;

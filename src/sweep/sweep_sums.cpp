@@ -32,6 +32,15 @@ void SweepSums::add(const SweepSums& other) {
   power.add(other.power);
 }
 
+bool SweepSums::has_same_measures(const SweepSums& other) const {
+  const auto same = [](const FixedSum& a, const FixedSum& b) {
+    return a.split().low == b.split().low && a.split().high == b.split().high;
+  };
+  return same(squared_length_ratio, other.squared_length_ratio) && same(squared_size_ratio, other.squared_size_ratio) &&
+         same(excess_alpha, other.excess_alpha) && alpha_bins.counts() == other.alpha_bins.counts() &&
+         triangles == other.triangles && max_alpha == other.max_alpha;
+}
+
 void measure_star(const StarView& view, LocalIndex i, double reference_size, SweepSums& sums) {
   const std::span<const LocalIndex> ring = view.stars.ring(i);
   const Vec2 p = view.points.position(i);
@@ -55,6 +64,24 @@ void measure_star(const StarView& view, LocalIndex i, double reference_size, Swe
   }
 }
 
+TileSums::TileSums(const SweepSums& sums)
+    : squared_length_ratio_(sums.squared_length_ratio), squared_size_ratio_(sums.squared_size_ratio),
+      excess_alpha_(sums.excess_alpha), max_alpha_(sums.max_alpha),
+      triangles_(static_cast<std::uint16_t>(sums.triangles)) {
+  std::ranges::transform(sums.alpha_bins.counts(), alpha_counts_.begin(),
+                         [](std::int64_t count) { return static_cast<std::uint16_t>(count); });
+}
+
+void TileSums::add_to(SweepSums& sums) const {
+  sums.squared_length_ratio.add(squared_length_ratio_);
+  sums.squared_size_ratio.add(squared_size_ratio_);
+  sums.excess_alpha.add(excess_alpha_);
+  sums.triangles += triangles_;
+  sums.max_alpha = std::max(sums.max_alpha, max_alpha_);
+  for (std::size_t k = 0; k < alpha_counts_.size(); ++k)
+    sums.alpha_bins.counts()[k] += alpha_counts_[k];
+}
+
 SweepSums measure(const StarView& view, double reference_size) {
   PerThread<SweepSums> of_thread;
   const LocalIndex first_tile = view.points.first_tile();
@@ -75,13 +102,15 @@ namespace {
 
 using sites::StarView;
 
-// [bytes a site] The measures of a tile are kept for sweeps in which it sleeps, unless all tiles together take
-// more.
+// [bytes a site] The measures of a tile are kept for sweeps in which it sleeps, unless all tiles of a rank together
+// take more than this and more than small_measures.
 constexpr std::size_t bytes_for_measures = 4;
+// [bytes] Measures of this size are always kept: tiles of a small mesh have few sites.
+constexpr std::size_t small_measures = std::size_t{1} << 20;
 
 /// The sums of a thread, and its buffer for the excesses of the kernel.
 struct ThreadSums {
-  SweepSums sums;
+  SweepSums sums, of_tile;
   std::vector<double> excesses;
 };
 
@@ -119,7 +148,8 @@ SweepSums StarMeasures::measure(const SweepTask& task, const StarView& view, dou
   all.least_class = SiteClass::bordered;
   const LocalIndex first_tile = view.points.first_tile();
   const std::size_t tiles = static_cast<std::size_t>(view.points.last_tile() - first_tile);
-  const bool keeps = tiles * sizeof(SweepSums) < bytes_for_measures * static_cast<std::size_t>(view.points.owned());
+  const bool keeps = tiles * sizeof(TileSums) <=
+                     std::max(small_measures, bytes_for_measures * static_cast<std::size_t>(view.points.owned()));
   if (keeps && of_tile_.size() != tiles) {
     of_tile_.resize(tiles);
     is_measured_.assign(tiles, 0);
@@ -133,12 +163,16 @@ SweepSums StarMeasures::measure(const SweepTask& task, const StarView& view, dou
       measure_tile(all, view, tile, reference_size, mine.excesses, mine.sums);
       return;
     }
-    if (!is_measured_[t]) {
-      of_tile_[t] = {};
-      measure_tile(all, view, tile, reference_size, mine.excesses, of_tile_[t]);
-      is_measured_[t] = 1;
+    if (is_measured_[t]) {
+      of_tile_[t].add_to(mine.sums);
+      return;
     }
-    mine.sums.add(of_tile_[t]);
+    mine.of_tile = {};
+    measure_tile(all, view, tile, reference_size, mine.excesses, mine.of_tile);
+    mine.sums.add(mine.of_tile);
+    is_measured_[t] = TileSums::can_keep(mine.of_tile);
+    if (is_measured_[t])
+      of_tile_[t] = TileSums(mine.of_tile);
   });
   SweepSums sums;
   for (const ThreadSums& one : of_thread)

@@ -13,6 +13,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace trime::sweep {
@@ -83,6 +84,8 @@ struct SweepSums {
       power; ///< power of the last move: sum of -move . (move + lead before the move) / h^2, each term at most 2^10
 
   void add(const SweepSums& other);
+  /// Returns whether the sums of both are the same, the power left out.
+  bool has_same_measures(const SweepSums& other) const;
 };
 
 /// Adds the edges and triangles around the inner site i.
@@ -91,6 +94,24 @@ void measure_star(const sites::StarView& view, LocalIndex i, double reference_si
 /// Returns the sums over the inner owned sites. Threads work on different tiles.
 /// @param reference_size h_ref, any typical target edge length
 SweepSums measure(const sites::StarView& view, double reference_size);
+
+/// SweepSums of one tile without the power, with counts of 16 bits: a quarter of the memory.
+class TileSums {
+public:
+  /// Returns whether the counts of these sums fit.
+  static bool can_keep(const SweepSums& sums) { return sums.triangles <= std::numeric_limits<std::uint16_t>::max(); }
+  TileSums() = default;
+  /// @pre can_keep(sums)
+  explicit TileSums(const SweepSums& sums);
+  /// Adds these sums to those of other tiles.
+  void add_to(SweepSums& sums) const;
+
+private:
+  FixedSum squared_length_ratio_, squared_size_ratio_, excess_alpha_;
+  double max_alpha_ = 1;
+  std::array<std::uint16_t, AlphaBins::size> alpha_counts_{};
+  std::uint16_t triangles_ = 0;
+};
 
 /// Measures the stars tile by tile, most of them by the vector kernel.
 class StarMeasures {
@@ -108,7 +129,7 @@ public:
   SweepSums measure(const SweepTask& task, const sites::StarView& view, double reference_size);
 
 private:
-  std::vector<SweepSums> of_tile_;        // by owned tile; empty if memory does not suffice
+  std::vector<TileSums> of_tile_;         // by owned tile; empty if they would take too much memory
   std::vector<std::uint8_t> is_measured_; // by owned tile: whether it was measured and has not changed since
 };
 

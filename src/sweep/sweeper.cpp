@@ -5,6 +5,8 @@
 #include "sweep/sweep_task.hpp"
 #include "trime/core/error.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -58,6 +60,13 @@ void Sweeper::Counts::follow_by(Counts later) {
 SweepSums Sweeper::measure(double reference_size) {
   return measures_.measure(make_sweep_task(state_, builder_, context_, certifier_.classes()),
                            view_of(state_, context_.size), reference_size);
+}
+
+void Sweeper::verify_measures(double reference_size) {
+  const SweepSums computed_again = sweep::measure(view_of(state_, context_.size), reference_size);
+  const bool same = measure(reference_size).has_same_measures(computed_again);
+  if (const std::int64_t sum = state_.comm().sum(std::int64_t{!same}); sum > 0)
+    throw InternalError(fmt::format("the measures of tiles that slept are wrong on {} ranks", sum));
 }
 
 // --- prepare -------------------------------------------------------------------------------------------------------

@@ -123,6 +123,9 @@ public:
   void restore(StateFields& fields, std::span<const std::uint64_t> activity);
   /// Compares all stars with newly computed ones, see StarCertifier::verify. Collective.
   void verify() const { certifier_.verify(); }
+  /// Compares the result of measure() with one that no earlier measure was used for. Throws InternalError on all ranks
+  /// if they differ. Slow; serves tests. Collective.
+  void verify_measures(double reference_size);
 
 private:
   void reset();

@@ -244,5 +244,28 @@ TEST(QualityKernel, MeasuresAsTheScalarSumsDo) {
   }
 }
 
+/// What a tile kept must not survive a move of its sites, and what all tiles kept adds up to the same sums.
+TEST(StarMeasures, EqualTheScalarSumsAlsoWhereTilesKeepThem) {
+  for (const bool is_graded : {false, true}) {
+    Cloud cloud(0.4, is_graded, true);
+    const SweepTask task = cloud.task();
+    StarMeasures measures;
+    const SweepSums first = measures.measure(task, cloud.view(), spacing);
+    EXPECT_TRUE(first.has_same_measures(measure(cloud.view(), spacing)));
+    EXPECT_TRUE(measures.measure(task, cloud.view(), spacing).has_same_measures(first));
+    std::vector<Vec2> places(cloud.points.positions().begin(), cloud.points.positions().end());
+    const auto moved = std::ranges::find(cloud.classes, SiteClass::local) - cloud.classes.begin();
+    places[static_cast<std::size_t>(moved)].x += 0.1 * spacing;
+    SweepTask later = task;
+    later.positions = places.data();
+    EXPECT_TRUE(measures.measure(later, cloud.view(), spacing).has_same_measures(first)) << "the tiles sleep";
+    for (LocalIndex t = 0; t < cloud.points.last_tile() - cloud.points.first_tile(); ++t)
+      measures.forget(static_cast<std::size_t>(t));
+    EXPECT_FALSE(measures.measure(later, cloud.view(), spacing).has_same_measures(first));
+    measures.reset();
+    EXPECT_TRUE(measures.measure(task, cloud.view(), spacing).has_same_measures(first));
+  }
+}
+
 } // namespace
 } // namespace trime::sweep
