@@ -4,6 +4,7 @@
 #include "generalise/absorb_parts.hpp"
 #include "generalise/close_nodes.hpp"
 #include "generalise/cut_wedges.hpp"
+#include "generalise/join_rim.hpp"
 #include "generalise/rules.hpp"
 #include "generalise/smooth_arcs.hpp"
 #include "generalise/snap_arcs.hpp"
@@ -292,7 +293,11 @@ Partition without_slivers(Partition given, const ArcRequest& request, std::span<
 Partition simplify_partition(const geometry::InnerCurves& curves, const geometry::Boundary& boundary,
                              const ArcRequest& request, std::span<const std::array<int, 2>> pairs) {
   bool has_absorbed = false;
-  Partition made = without_slivers({curves, boundary}, request, pairs, has_absorbed);
+  Partition made{curves, boundary};
+  std::optional<Partition> joined = join_rim(made, request);
+  if (joined)
+    made = std::move(*joined);
+  made = without_slivers(std::move(made), request, pairs, has_absorbed);
   made.curves.on_boundary.clear();
   made.curves.outside.clear();
   std::vector<geometry::NarrowWedge> wedges = geometry::narrow_wedges(made.curves.arcs, made.boundary);
@@ -325,6 +330,7 @@ Partition simplify_partition(const geometry::InnerCurves& curves, const geometry
   }
   cut_wedges(made.curves, wedges, made.boundary, request);
   geometry::set_wedges(made.curves.arcs, made.boundary);
+  made.is_relabelled = made.is_relabelled || joined;
   return made;
 }
 

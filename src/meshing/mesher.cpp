@@ -266,6 +266,12 @@ void Run::report_boundary() {
         "curves and interfaces that follow each other are one line at {} {}, where they were nearer than "
         "the triangles can show; the largest distance was {:.3g}, at {}; keep_features = true keeps both lines",
         lines.vertices, lines.vertices == 1 ? "vertex" : "vertices", lines.farthest, Place(lines.place, 6));
+  if (const fitting::JoinedLines& lines = scheme_.joined_lines(); lines.on_rim > 0)
+    run_.log.warning(
+        "curves that follow the boundary, or end beside it, nearer than the triangles can show belong to the boundary "
+        "over a length of {:.3g} in total; the edges there have only the name of the boundary; the largest distance "
+        "was {:.3g}, at {}; keep_features = true keeps them apart",
+        lines.on_rim, lines.rim_distance, Place(lines.rim_place, 6));
   if (const fitting::JoinedLines& lines = scheme_.joined_lines(); lines.loose_ends > 0)
     run_.log.summary(
         "{} end{} of curves beyond other curves or interfaces {} left out, because {} shorter than 0.1 h; the "

@@ -216,6 +216,21 @@ class Curves(WorkspaceCase):
         self.assertAlmostEqual(mesh.length(), 16 * 0.4, delta=1e-10)
         self.assertLess(mesh.alpha().max(), 1.8)
 
+    def test_beside_the_boundary(self):
+        """Lines beside the boundary, nearer than the triangles can show, and lines that end just before it."""
+        h = 1.07 / math.sqrt(2000)
+        self.write("lines.xy",
+                   [(0.1 + 0.02 * k, h * (0.06 + 0.03 * (k % 3))) for k in range(41)],    # all along one side
+                   [(0.4, 0.7), (0.5, 1 - 0.1 * h), (0.6, 1 - 0.1 * h), (0.7, 0.7)],      # for a while
+                   [(0.2, 0.5), (0.1 * h, 0.5)])                                          # ends before the left side
+        mesh = self.same_on_all(section("line", "lines.xy"), points=2000)
+        self.assertIn("follow the boundary, or end beside it", self.report)
+        self.assertLess(mesh.alpha().max(), 1.4)
+        self.assertGreater(len(mesh.points), 1950)
+        nodes = mesh.nodes()
+        self.assertEqual(nodes[(0, 0.5)], 1)
+        self.assertEqual(len(nodes), 6)  # three lines are left
+
     def test_more_curves_than_points(self):
         """A net that is finer than the triangles: refused soon, with the number that it takes."""
         lines = [[(k / 16 + 0.03, 0), (k / 16 + 0.03, 1)] for k in range(16)]
