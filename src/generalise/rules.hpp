@@ -55,6 +55,8 @@ struct GeneraliseRules {
   static constexpr double vertex_area = 0.12;
   /// [h] Such a vertex stays if it is farther from the edge that would replace it. Not measured.
   static constexpr double vertex_move = 0.4;
+  /// [h] Such a vertex stays if another vertex lies beyond that edge, but nearer to it than this. Not measured.
+  static constexpr double clearance = 0.01;
   /// [h] Two nodes of curves and interfaces that are joined by a shorter edge become one node, because shorter edges
   /// need triangles that are as small. Not measured.
   static constexpr double node_distance = 0.1;
@@ -77,7 +79,7 @@ struct GeneraliseRules {
   /// the other: they then meet at less than about 20 degrees. Not measured.
   static constexpr double narrow_share = 0.35;
   /// [h] Where a curve comes nearer to the boundary than snap_distance, the part of it that is nearer than this belongs
-  /// to the boundary. Then what is left leaves the boundary with triangles beside it that are hardly smaller. Not
+  /// to the boundary. Then what is left leaves the boundary with triangles next to it that are hardly smaller. Not
   /// measured.
   static constexpr double rim_distance = 0.4;
   /// [1] Largest sine of the angle between two lines that follow each other: 35 degrees. Not measured.
