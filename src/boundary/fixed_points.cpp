@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "boundary/fixed_points.hpp"
 
-#include "boundary/cornered_boundary.hpp"
 #include "boundary/feature_rule.hpp"
 #include "boundary/rules.hpp"
+#include "geometry/cornered_boundary.hpp"
 #include "sizing/size_blocks.hpp"
 #include "trime/core/error.hpp"
 #include "trime/geometry/piece_tree.hpp"
@@ -113,7 +113,7 @@ FixedPoints::FixedPoints(const geometry::Boundary& boundary, const geometry::Box
 void FixedPoints::take_corners() {
   const geometry::Boundary& boundary = given_boundary_;
   const geometry::PieceTree pieces(boundary);
-  std::optional<CorneredBoundary> cornered; // takes more memory than the boundary
+  std::optional<geometry::CorneredBoundary> cornered; // takes more memory than the boundary
   NearPoints on_curve(boundary.bounding_box().min, tolerance_);
   for (const Vec2 p : all_) {
     if (pieces.distance(p) > tolerance_) {
@@ -122,7 +122,7 @@ void FixedPoints::take_corners() {
     }
     // If two points are nearer to each other than the tolerance for "on the boundary", only one of them could be a
     // corner.
-    for (const Vec2 shift : images_of(boundary.periods))
+    for (const Vec2 shift : geometry::images_of(boundary.periods))
       if (const std::optional<Vec2> q = on_curve.first_near(p + shift))
         throw GeometryError(
             fmt::format("{}: the fixed point {} on the boundary is {:.2g} from that of {}: expected the same point "
@@ -152,7 +152,7 @@ std::vector<Vec2> points_between(const geometry::Piece& piece, double spacing, c
 double distance_of_images(const geometry::Piece& piece, Vec2 p, const geometry::Periods& periods) {
   const Vec2 near = periods.nearest_image(p, 0.5 * (piece.start + piece.end));
   double least = std::numeric_limits<double>::infinity();
-  for (const Vec2 shift : images_of(periods))
+  for (const Vec2 shift : geometry::images_of(periods))
     least = std::fmin(least, piece.distance(near + shift));
   return least;
 }
@@ -216,7 +216,7 @@ void FixedPoints::check_inside(const BoundaryGuard& guard, std::span<const geome
                                       label(p), Place(p)));
     const geometry::PieceTree pieces(cornered_boundary());
     double distance = std::numeric_limits<double>::infinity();
-    for (const Vec2 shift : images_of(given_boundary_.periods))
+    for (const Vec2 shift : geometry::images_of(given_boundary_.periods))
       distance = std::fmin(distance, pieces.distance(p + shift));
     throw GeometryError(fmt::format("{}: the fixed point {} lies outside the shape, {:.6g} from its boundary; "
                                     "expected a point inside, or on the boundary to within {:.2g}",
@@ -229,7 +229,7 @@ void FixedPoints::check_distances(double shortest_edge) const {
     return;
   const SiteTree tree = tree_of(all_);
   for (std::size_t k = 0; k < all_.size(); ++k)
-    for (const Vec2 shift : images_of(given_boundary_.periods))
+    for (const Vec2 shift : geometry::images_of(given_boundary_.periods))
       tree.for_each_within(all_[k] + shift, shortest_edge, [&](const SiteTree::Entry& other) {
         if (static_cast<std::size_t>(other.index) != k)
           throw GeometryError(fmt::format("the fixed points {} and {} are {:.6g} apart, but shortest_edge = {:g} in "
@@ -243,7 +243,7 @@ void FixedPoints::check_distances(double shortest_edge) const {
 /// Is a point of inside_ nearer to p?
 bool FixedPoints::is_near(Vec2 p, double distance) const {
   const Vec2 across{distance, 0};
-  for (const Vec2 shift : images_of(given_boundary_.periods))
+  for (const Vec2 shift : geometry::images_of(given_boundary_.periods))
     if (tree_.find_in_disc(lattice_.snap(p + shift - across), lattice_.snap(p + shift + across), -1, -1) >= 0)
       return true;
   return false;

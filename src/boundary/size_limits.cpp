@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "boundary/size_limits.hpp"
 
-#include "boundary/cornered_boundary.hpp"
 #include "boundary/rules.hpp"
 #include "boundary/site_tree.hpp"
 #include "comm/agree.hpp"
 #include "core/thread_loop.hpp"
+#include "geometry/cornered_boundary.hpp"
 #include "polygon/both_sides.hpp"
 #include "sizing/size_blocks.hpp"
 
@@ -54,7 +54,7 @@ public:
   LimitFinder(const BoundarySites& boundary, const sizing::SizeField& size, const sizing::SizeField& asked,
               LocalIndex first, LocalIndex last)
       : boundary_(boundary), size_(size), asked_(asked), first_(first), last_(last),
-        images_(boundary.inner.empty() ? std::vector<Vec2>{{0, 0}} : images_of(boundary.periods)),
+        images_(boundary.inner.empty() ? std::vector<Vec2>{{0, 0}} : geometry::images_of(boundary.periods)),
         site_sizes_(sizes_at_sites()), tree_(items_near()), sharp_(boundary.sites.size()) {
     thread_loop(std::ssize(sharp_), sites_in_a_row, [this](std::ptrdiff_t k, int) {
       sharp_[static_cast<std::size_t>(k)] = chords_meet_sharply(static_cast<LocalIndex>(k));

@@ -16,6 +16,7 @@
 namespace trime::fitting {
 
 using generalise::JoinedLines;
+using generalise::JoinedParts;
 
 /// @brief Owns the factor of the size field, the limits of the size, the curves at that size, and samples of the size.
 /// A search finds these data; then stages are laid out with that size or a multiple of it. Stages share the curves,

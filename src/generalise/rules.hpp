@@ -55,6 +55,8 @@ struct GeneraliseRules {
   static constexpr double vertex_area = 0.12;
   /// [h] Such a vertex stays if it is farther from the edge that would replace it. Not measured.
   static constexpr double vertex_move = 0.4;
+  /// [h] Such a vertex stays if another vertex lies beyond that edge, but nearer to it than this. Not measured.
+  static constexpr double clearance = 0.01;
   /// [h] Two nodes of curves and interfaces that are joined by a shorter edge become one node, because shorter edges
   /// need triangles that are as small. Not measured.
   static constexpr double node_distance = 0.1;
@@ -73,6 +75,13 @@ struct GeneraliseRules {
   /// [h] A curve and an interface, or two curves, become one line where they lie nearer to each other, because the user
   /// means one line that was digitised twice. Not measured.
   static constexpr double snap_distance = 0.2;
+  /// [1] Two curves that meet follow each other if their distance is below this share of the way along them from one to
+  /// the other: they then meet at less than about 20 degrees. Not measured.
+  static constexpr double narrow_share = 0.35;
+  /// [h] Where a curve comes nearer to the boundary than snap_distance, the part of it that is nearer than this belongs
+  /// to the boundary. Then what is left leaves the boundary with triangles next to it that are hardly smaller. Not
+  /// measured.
+  static constexpr double rim_distance = 0.4;
   /// [1] Largest sine of the angle between two lines that follow each other: 35 degrees. Not measured.
   static constexpr double parallel = 0.57;
   /// [h] Ragged runs of a curve lose vertices that are nearer to each other. Measured on twelve meshes of coasts: with

@@ -28,9 +28,6 @@ constexpr int most_rounds = 20; // edges may come near to further vertices
 // The nearest edge of a line is usually the one that leads through a vertex; a few more may be tried if it may not.
 constexpr std::size_t most_edges = 4;
 
-// [1] Two curves that meet follow each other if their distance is below this share of the way along them from one to
-// the other: they then meet at less than about 20 degrees. Not measured.
-constexpr double narrow_share = 0.35;
 // A search along curves ends after this number of vertices, or of nodes among them. Edges that it has not reached by
 // then do not become one line with the curve.
 constexpr std::size_t most_steps = 1000, most_nodes = 16;
@@ -165,11 +162,14 @@ private:
 
   /// Is the way along curves from the vertex to the edge long, compared with their distance?
   bool is_narrow(LocalIndex v, LocalIndex e, const ShortWays& ways) const {
-    return ways.are_at_least(std::sqrt(pair_of(v, e).squared_distance) / narrow_share, net_.edge(e).a, net_.edge(e).b);
+    return ways.are_at_least(std::sqrt(pair_of(v, e).squared_distance) / GeneraliseRules::narrow_share, net_.edge(e).a,
+                             net_.edge(e).b);
   }
 
   /// The ways that decide for edges within a distance of the vertex.
-  ShortWays ways_from(LocalIndex v, double distance) const { return {net_, v, distance / narrow_share}; }
+  ShortWays ways_from(LocalIndex v, double distance) const {
+    return {net_, v, distance / GeneraliseRules::narrow_share};
+  }
 
   /// Such pairs within reach, the nearest first: for each vertex with its nearest edges, so that the memory does not
   /// grow with the number of edges within reach. Others come in a later round.

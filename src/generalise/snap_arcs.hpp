@@ -14,18 +14,37 @@
 
 namespace trime::generalise {
 
-/// Says how often curves and interfaces that follow each other were joined.
+/// The parts of curves that belong to other lines, see join_lines().
+struct JoinedParts {
+  double length = 0;    ///< their total length
+  double farthest = 0;  ///< largest distance of one of them from its line
+  geometry::Vec2 place; ///< where that is
+  /// Takes in further parts.
+  void add(const JoinedParts& later) {
+    length += later.length;
+    if (later.farthest > farthest) {
+      farthest = later.farthest;
+      place = later.place;
+    }
+  }
+};
+
+/// Says how often lines that follow each other were joined.
 struct JoinedLines {
   std::int64_t vertices = 0;   ///< vertices of one line through which the other one leads
   double farthest = 0;         ///< largest distance of such a vertex from the other line
   geometry::Vec2 place{};      ///< where that vertex is
   std::int64_t loose_ends = 0; ///< ends of curves beyond another curve or an interface that were left out
   double longest_end = 0;      ///< length of the longest of them
+  JoinedParts rim{};           ///< parts of curves that belong to the boundary
+  JoinedParts lines{};         ///< parts of curves that belong to other curves
   /// Takes in what was joined later.
   void add(const JoinedLines& later) {
     vertices += later.vertices;
     loose_ends += later.loose_ends;
     longest_end = longest_end > later.longest_end ? longest_end : later.longest_end;
+    rim.add(later.rim);
+    lines.add(later.lines);
     if (later.farthest > farthest) {
       farthest = later.farthest;
       place = later.place;

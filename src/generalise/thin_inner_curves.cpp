@@ -4,6 +4,7 @@
 #include "generalise/absorb_parts.hpp"
 #include "generalise/close_nodes.hpp"
 #include "generalise/cut_wedges.hpp"
+#include "generalise/join_lines.hpp"
 #include "generalise/rules.hpp"
 #include "generalise/smooth_arcs.hpp"
 #include "generalise/snap_arcs.hpp"
@@ -146,7 +147,8 @@ private:
     const geometry::Segment chord{place(previous_[k]), place(next_[k])};
     return area < GeneraliseRules::vertex_area * h * h && chord.a != chord.b &&
            geometry::squared_distance(place(k), chord) <= most * most &&
-           tree_.is_empty({vertices_[previous_[k]], vertices_[k], vertices_[next_[k]]});
+           tree_.is_empty({vertices_[previous_[k]], vertices_[k], vertices_[next_[k]]}) &&
+           tree_.has_room(chord, place(k), GeneraliseRules::clearance * h);
   }
 
   /// Would an arc that must bend, and bends, keep only a vertex on the line between its ends?
@@ -287,14 +289,22 @@ Partition without_slivers(Partition given, const ArcRequest& request, std::span<
   return made;
 }
 
+/// Joins curves with the boundary and with each other.
+Partition with_joined_lines(Partition given, const ArcRequest& request) {
+  given.curves.on_boundary.clear(); // which belongs to the curves as they were given
+  given.curves.outside.clear();
+  std::optional<Partition> joined = join_lines(given, request);
+  return joined ? std::move(*joined) : std::move(given);
+}
+
 } // namespace
 
 Partition simplify_partition(const geometry::InnerCurves& curves, const geometry::Boundary& boundary,
                              const ArcRequest& request, std::span<const std::array<int, 2>> pairs) {
   bool has_absorbed = false;
-  Partition made = without_slivers({curves, boundary}, request, pairs, has_absorbed);
-  made.curves.on_boundary.clear();
-  made.curves.outside.clear();
+  const Partition joined = with_joined_lines({curves, boundary}, request);
+  Partition made = without_slivers(joined, request, pairs, has_absorbed);
+  const bool is_relabelled = made.is_relabelled || joined.is_relabelled;
   std::vector<geometry::NarrowWedge> wedges = geometry::narrow_wedges(made.curves.arcs, made.boundary);
   if (has_absorbed)
     std::erase_if(wedges, [&](const geometry::NarrowWedge& wedge) {
@@ -325,6 +335,7 @@ Partition simplify_partition(const geometry::InnerCurves& curves, const geometry
   }
   cut_wedges(made.curves, wedges, made.boundary, request);
   geometry::set_wedges(made.curves.arcs, made.boundary);
+  made.is_relabelled = made.is_relabelled || is_relabelled;
   return made;
 }
 

@@ -50,7 +50,8 @@ struct ClosedTriangle {
 } // namespace
 
 VertexTree::VertexTree(const geometry::Boundary& boundary, const geometry::Lattice& lattice,
-                       std::span<const Vec2> points) {
+                       std::span<const Vec2> points)
+    : lattice_(lattice) {
   for (const geometry::Loop& loop : boundary.loops)
     add_loop(loop, lattice);
   first_of_loop_.push_back(static_cast<LocalIndex>(points_.size()));
@@ -156,6 +157,14 @@ bool VertexTree::holds_any(std::size_t level, std::size_t node, const Triangle& 
 
 bool VertexTree::is_empty(std::array<LocalIndex, 3> corners) const {
   return is_empty(corners, {points_[at(corners[0])], points_[at(corners[1])], points_[at(corners[2])]});
+}
+
+bool VertexTree::has_room(const geometry::Segment& segment, Vec2 from, double height) const {
+  const Vec2 along = segment.b - segment.a, away = from - segment.a, across{-along.y, along.x};
+  const double share = std::clamp(dot(away, along) / squared_length(along), 0.0, 1.0),
+               side = cross(along, away) > 0 ? -1 : 1;
+  const Vec2 beyond = segment.a + share * along + (side * height / geometry::length(along)) * across;
+  return is_empty_at({segment.a, lattice_.snap(beyond), segment.b});
 }
 
 bool VertexTree::is_empty_at(std::array<Vec2, 3> corners) const {

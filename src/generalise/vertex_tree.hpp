@@ -34,6 +34,9 @@ public:
   bool is_empty(std::array<LocalIndex, 3> corners) const;
   /// Returns whether the closed triangle contains no remaining vertex except at its corners. Exact.
   bool is_empty_at(std::array<geometry::Vec2, 3> corners) const;
+  /// Returns whether no remaining vertex lies next to the segment on the other side than `from`: in the triangle over
+  /// it with this height, whose apex is opposite to `from`.
+  bool has_room(const geometry::Segment& segment, geometry::Vec2 from, double height) const;
   void remove(LocalIndex vertex) { is_left_[at(vertex)] = 0; }
   void restore(LocalIndex vertex) { is_left_[at(vertex)] = 1; }
 
@@ -50,6 +53,7 @@ private:
   template <class Triangle>
   bool holds_any(std::size_t level, std::size_t node, const Triangle& triangle) const;
 
+  geometry::Lattice lattice_;
   std::vector<geometry::Vec2> points_;    // by vertex
   std::vector<char> is_left_;             // by vertex
   std::vector<char> starts_piece_;        // by vertex

@@ -112,6 +112,7 @@ private:
   void begin_sweeps();
   void count_replicated() const;
   void report_boundary();
+  void warn_of_joined_lines(const fitting::JoinedLines& lines);
   void empty_discs();
   bool clean_up();
   MeshResult extract();
@@ -261,17 +262,7 @@ void Run::report_boundary() {
         "{} place{} where curves or interfaces meet {} joined with another one, since the edge between them "
         "is shorter than 0.1 h; keep_features = true keeps all",
         joined, joined == 1 ? "" : "s", joined == 1 ? "is" : "are");
-  if (const fitting::JoinedLines& lines = scheme_.joined_lines(); lines.vertices > 0)
-    run_.log.warning(
-        "curves and interfaces that follow each other are one line at {} {}, where they were nearer than "
-        "the triangles can show; the largest distance was {:.3g}, at {}; keep_features = true keeps both lines",
-        lines.vertices, lines.vertices == 1 ? "vertex" : "vertices", lines.farthest, Place(lines.place, 6));
-  if (const fitting::JoinedLines& lines = scheme_.joined_lines(); lines.loose_ends > 0)
-    run_.log.summary(
-        "{} end{} of curves beyond other curves or interfaces {} left out, because {} shorter than 0.1 h; the "
-        "longest has a length of {:.3g}; keep_features = true keeps all",
-        lines.loose_ends, lines.loose_ends == 1 ? "" : "s", lines.loose_ends == 1 ? "is" : "are",
-        lines.loose_ends == 1 ? "it is" : "they are", lines.longest_end);
+  warn_of_joined_lines(scheme_.joined_lines());
   comm::run_agreed(run_.comm, [this] {
     fitting::warn_of_fine_features(stage_, run_.options.min_size.has_value(), run_.log);
     if (run_.fit.gradation && !run_.relative_size.jumps())
@@ -280,6 +271,31 @@ void Run::report_boundary() {
     if (!boundary_.fixed().empty())
       boundary_.fixed().warn_of_close_ones(*stage_.guard, *stage_.size, run_.log);
   });
+}
+
+/// Says which curves are one line with others.
+void Run::warn_of_joined_lines(const fitting::JoinedLines& lines) {
+  if (lines.vertices > 0)
+    run_.log.warning(
+        "curves and interfaces that follow each other are one line at {} {}, where they were nearer than "
+        "the triangles can show; the largest distance was {:.3g}, at {}; keep_features = true keeps both lines",
+        lines.vertices, lines.vertices == 1 ? "vertex" : "vertices", lines.farthest, Place(lines.place, 6));
+  const auto warn = [this](const fitting::JoinedParts& parts, std::string_view other, std::string_view effect) {
+    if (parts.length > 0)
+      run_.log.warning(
+          "curves that follow {}, or end just before it, nearer than the triangles can show belong to it over a length "
+          "of {:.3g} in total; the edges there have only {}; the largest distance was {:.3g}, at {}; keep_features = "
+          "true keeps both lines",
+          other, parts.length, effect, parts.farthest, Place(parts.place, 6));
+  };
+  warn(lines.rim, "the boundary", "the name of the boundary");
+  warn(lines.lines, "another curve", "the name of that curve");
+  if (lines.loose_ends > 0)
+    run_.log.summary(
+        "{} end{} of curves beyond other curves or interfaces {} left out, because {} shorter than 0.1 h; the "
+        "longest has a length of {:.3g}; keep_features = true keeps all",
+        lines.loose_ends, lines.loose_ends == 1 ? "" : "s", lines.loose_ends == 1 ? "is" : "are",
+        lines.loose_ends == 1 ? "it is" : "they are", lines.longest_end);
 }
 
 /// Empties the diametral discs of all chords: pushes first, then deletes.

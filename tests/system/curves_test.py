@@ -207,6 +207,15 @@ class Curves(WorkspaceCase):
         self.assertIn("1 end of curves beyond other curves or interfaces is left out", self.report)
         self.assertLess(mesh.alpha().max(), 1.5)
 
+    def test_isobaths(self):
+        """Lines of many vertices that come near to each other and part again: no small angle arises."""
+        lines = [[(0.05 + 0.9 * j / 300, 0.3 + 0.02 * k + 0.03 * math.sin(7 * j / 300)
+                   + 0.1 * math.exp(-((j - 150) / 50) ** 2) * (6 - k) / 6) for j in range(301)] for k in range(12)]
+        self.write("isobaths.xy", *lines)
+        mesh = self.same_on_all(section("isobath", "isobaths.xy"), points=3000)
+        self.assertIn("follow another curve, or end just before it", self.report)
+        self.assertLess(mesh.alpha().max(), 1.8)
+
     def test_many_from_one_place(self):
         """Sixteen curves from one place: the clean-up tries pairs of changes between them, and refines."""
         angles = [k * math.pi / 8 for k in range(16)]
@@ -215,6 +224,21 @@ class Curves(WorkspaceCase):
         self.assertEqual(mesh.nodes()[(0.5, 0.5)], 16)
         self.assertAlmostEqual(mesh.length(), 16 * 0.4, delta=1e-10)
         self.assertLess(mesh.alpha().max(), 1.8)
+
+    def test_beside_the_boundary(self):
+        """Lines next to the boundary, nearer than the triangles can show, and lines that end just before it."""
+        h = 1.07 / math.sqrt(2000)
+        self.write("lines.xy",
+                   [(0.1 + 0.02 * k, h * (0.06 + 0.03 * (k % 3))) for k in range(41)],    # all along one side
+                   [(0.4, 0.7), (0.5, 1 - 0.1 * h), (0.6, 1 - 0.1 * h), (0.7, 0.7)],      # for a while
+                   [(0.2, 0.5), (0.1 * h, 0.5)])                                          # ends before the left side
+        mesh = self.same_on_all(section("line", "lines.xy"), points=2000)
+        self.assertIn("follow the boundary, or end just before it", self.report)
+        self.assertLess(mesh.alpha().max(), 1.4)
+        self.assertGreater(len(mesh.points), 1950)
+        nodes = mesh.nodes()
+        self.assertEqual(nodes[(0, 0.5)], 1)
+        self.assertEqual(len(nodes), 6)  # three lines are left
 
     def test_more_curves_than_points(self):
         """A net that is finer than the triangles: refused soon, with the number that it takes."""

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Points that become corners: the same boundary, bit for bit, as by looking at every piece for every point, and the
 // work of many points on many pieces.
-#include "boundary/cornered_boundary.hpp"
+#include "geometry/cornered_boundary.hpp"
 
 #include "core/angle.hpp"
 #include "core/random.hpp"
@@ -12,14 +12,9 @@
 #include <algorithm>
 #include <cmath>
 
-namespace trime::boundary {
+namespace trime::geometry {
 namespace {
 
-using geometry::Boundary;
-using geometry::Frame;
-using geometry::Loop;
-using geometry::Piece;
-using geometry::Vec2;
 using shape::Part;
 using shape::RegionShape;
 
@@ -65,8 +60,8 @@ void add_slowly(Boundary& boundary, Vec2 p) {
           q = p + shift;
         }
   std::vector<Piece>& pieces = loop->pieces;
-  const bool at_start = geometry::length(q - pieces[index].start) <= tolerance;
-  if (!at_start && geometry::length(q - pieces[index].end) > tolerance)
+  const bool at_start = length(q - pieces[index].start) <= tolerance;
+  if (!at_start && length(q - pieces[index].end) > tolerance)
     return divide(pieces, index, q);
   const std::size_t n = pieces.size(), after = at_start ? index : (index + 1) % n, before = (after + n - 1) % n;
   const Vec2 moved = q - (at_start ? pieces[index].start : pieces[index].end);
@@ -91,7 +86,7 @@ void expect_equal(const Boundary& found, const Boundary& expected) {
 }
 
 /// Places on the boundary, many at or near its vertices, and on the first pieces more than on others.
-std::vector<Vec2> places_on(const Boundary& boundary, const geometry::Lattice& lattice, int count) {
+std::vector<Vec2> places_on(const Boundary& boundary, const Lattice& lattice, int count) {
   std::vector<const Piece*> pieces;
   for (const Loop& loop : boundary.loops)
     for (const Piece& piece : loop.pieces)
@@ -104,8 +99,8 @@ std::vector<Vec2> places_on(const Boundary& boundary, const geometry::Lattice& l
     const double part = k % 7 == 0 ? 0 : uniform(key, 1), off = 0.7 * tolerance * uniform(key, 2);
     const Vec2 p = boundary.periods.wrap(lattice.snap(piece.point(part * piece.length()) + Vec2{off, -off}));
     const bool is_apart = std::all_of(places.begin(), places.end(), [&](Vec2 q) {
-      return boundary.periods.any() ? geometry::length(boundary.periods.nearest_image(q, p) - p) > 3 * tolerance
-                                    : geometry::length(q - p) > 3 * tolerance;
+      return boundary.periods.any() ? length(boundary.periods.nearest_image(q, p) - p) > 3 * tolerance
+                                    : length(q - p) > 3 * tolerance;
     });
     if (is_apart)
       places.push_back(p);
@@ -128,7 +123,7 @@ Part polygon(const std::vector<Vec2>& points, const Frame& frame) {
 }
 
 TEST(CorneredBoundary, IsThatOfALookAtEveryPiece) {
-  const Frame plane(geometry::Box{{0, 0}, {1, 1}}), torus(geometry::Box{{0, 0}, {1, 1}}, true, true);
+  const Frame plane(Box{{0, 0}, {1, 1}}), torus(Box{{0, 0}, {1, 1}}, true, true);
   const RegionShape shapes[] = {
       RegionShape(
           {Part::rectangle("r", {{0.25, 0.25}, {0.75, 0.75}}, plane), Part::circle("c", {0.5, 0.5}, 0.125, plane)},
@@ -138,7 +133,7 @@ TEST(CorneredBoundary, IsThatOfALookAtEveryPiece) {
       RegionShape({Part::rectangle("r", {{-0.5, 0.3}, {1.5, 0.6}}, torus)}, "r", torus)};
   for (const RegionShape& shape : shapes) {
     const Boundary& boundary = shape.boundary();
-    const geometry::PieceTree tree(boundary);
+    const PieceTree tree(boundary);
     CorneredBoundary cornered(boundary, tree, tolerance);
     Boundary expected = boundary;
     for (const Vec2 p : places_on(boundary, shape.frame().lattice(), 400)) {
@@ -160,7 +155,7 @@ TEST(CorneredBoundary, AWholeTurnIsOnePiece) {
     piece.start = piece.end = {0.75, 0.5};
     piece.sweep = sweep;
     boundary.loops = {Loop{{piece}}};
-    const geometry::PieceTree tree(boundary);
+    const PieceTree tree(boundary);
     CorneredBoundary cornered(boundary, tree, tolerance);
     Boundary expected = boundary;
     for (const double angle : {4.0, 1.0, 0.0, 6.2, 3.0, 2.0, 5.0}) {
@@ -174,7 +169,7 @@ TEST(CorneredBoundary, AWholeTurnIsOnePiece) {
 }
 
 TEST(CorneredBoundary, TheWorkDoesNotGrowAsTheProduct) {
-  const Frame plane(geometry::Box{{0, 0}, {1, 1}});
+  const Frame plane(Box{{0, 0}, {1, 1}});
   constexpr int many = 5000;
   const RegionShape round({polygon(circle_of_vertices(many), plane)}, "p", plane),
       square({Part::rectangle("r", {{0.25, 0.25}, {0.75, 0.75}}, plane)}, "r", plane);
@@ -184,7 +179,7 @@ TEST(CorneredBoundary, TheWorkDoesNotGrowAsTheProduct) {
   for (int k = 0; k < many; ++k)
     side.push_back(plane.lattice().snap({0.25, 0.25 + 0.5 * (k + 0.5) / many}));
   for (const auto& [boundary, points] : {std::pair{&round.boundary(), vertices}, std::pair{&square.boundary(), side}}) {
-    const geometry::PieceTree tree(*boundary);
+    const PieceTree tree(*boundary);
     CorneredBoundary cornered(*boundary, tree, tolerance);
     for (const Vec2 p : points)
       cornered.add_corner(p);
@@ -193,4 +188,4 @@ TEST(CorneredBoundary, TheWorkDoesNotGrowAsTheProduct) {
 }
 
 } // namespace
-} // namespace trime::boundary
+} // namespace trime::geometry

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "boundary/cornered_boundary.hpp"
+#include "geometry/cornered_boundary.hpp"
 
 #include "core/angle.hpp"
 #include "trime/core/error.hpp"
@@ -10,10 +10,7 @@
 #include <iterator>
 #include <limits>
 
-namespace trime::boundary {
-
-using geometry::Piece;
-using geometry::Vec2;
+namespace trime::geometry {
 
 namespace {
 
@@ -21,7 +18,8 @@ namespace {
 /// the point lies within 2 of it, and within 4 the given piece that it is made of. Twice that, for rounding.
 constexpr double search_reach = 8;
 
-/// The part of a piece before p, or the one after it. @pre p lies on the piece
+} // namespace
+
 std::array<Piece, 2> divided(const Piece& piece, Vec2 p) {
   std::array<Piece, 2> parts{piece, piece};
   parts[0].end = parts[1].start = p;
@@ -40,9 +38,7 @@ std::array<Piece, 2> divided(const Piece& piece, Vec2 p) {
   return parts;
 }
 
-} // namespace
-
-std::vector<Vec2> images_of(const geometry::Periods& periods) {
+std::vector<Vec2> images_of(const Periods& periods) {
   std::vector<Vec2> shifts{{0, 0}};
   for (const double x : {-periods.x, 0.0, periods.x})
     for (const double y : {-periods.y, 0.0, periods.y})
@@ -51,10 +47,9 @@ std::vector<Vec2> images_of(const geometry::Periods& periods) {
   return shifts;
 }
 
-CorneredBoundary::CorneredBoundary(const geometry::Boundary& boundary, const geometry::PieceTree& pieces,
-                                   double tolerance)
+CorneredBoundary::CorneredBoundary(const Boundary& boundary, const PieceTree& pieces, double tolerance)
     : boundary_(boundary), tree_(pieces), tolerance_(tolerance), images_(images_of(boundary.periods)) {
-  for (const geometry::Loop& loop : boundary.loops) {
+  for (const Loop& loop : boundary.loops) {
     const std::size_t first = links_.size(), n = loop.pieces.size();
     for (std::size_t k = 0; k < n; ++k) {
       given_.push_back(&loop.pieces[k]);
@@ -86,8 +81,8 @@ void CorneredBoundary::add_corner(Vec2 p) {
                "the point ({}, {}) is {} away from the boundary, at most {} are allowed", p.x, p.y, best.distance,
                tolerance_);
   Link& link = links_[best.link];
-  const bool at_start = geometry::length(best.image - link.piece.start) <= tolerance_;
-  const bool at_end = geometry::length(best.image - link.piece.end) <= tolerance_;
+  const bool at_start = length(best.image - link.piece.start) <= tolerance_;
+  const bool at_end = length(best.image - link.piece.end) <= tolerance_;
   if (!at_start && !at_end)
     return divide(best.link, best.image);
   Link& after = at_start ? link : links_[link.after];
@@ -128,7 +123,7 @@ void CorneredBoundary::look_at(std::size_t link, Vec2 image, Nearest& best) {
 double CorneredBoundary::along(std::size_t origin, Vec2 p) const {
   const Piece& piece = *given_[origin];
   if (!piece.circular)
-    return dot(p - piece.start, piece.end - piece.start) / geometry::length(piece.end - piece.start);
+    return dot(p - piece.start, piece.end - piece.start) / length(piece.end - piece.start);
   const Vec2 from = piece.start - piece.center, to = p - piece.center;
   const double angle = angle_of(cross(from, to), dot(from, to));
   return piece.radius * (piece.sweep < 0 ? -angle : angle);
@@ -156,10 +151,10 @@ void CorneredBoundary::divide(std::size_t link, Vec2 p) {
   links_[fresh].place = parts->second.emplace_hint(next, place, fresh);
 }
 
-geometry::Boundary CorneredBoundary::result() const {
-  geometry::Boundary made = boundary_;
+Boundary CorneredBoundary::result() const {
+  Boundary made = boundary_;
   std::size_t first = 0;
-  for (geometry::Loop& loop : made.loops) {
+  for (Loop& loop : made.loops) {
     const std::size_t count = loop.pieces.size();
     loop.pieces.clear();
     for (std::size_t link = first; loop.pieces.empty() || link != first; link = links_[link].after)
@@ -169,4 +164,4 @@ geometry::Boundary CorneredBoundary::result() const {
   return made;
 }
 
-} // namespace trime::boundary
+} // namespace trime::geometry

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Tests that curves which run along the boundary belong to it, and that others stay.
+#include "generalise/join_lines.hpp"
+
+#include "arc_paths.hpp"
+#include "trime/geometry/boundary.hpp"
+#include "trime/geometry/lattice.hpp"
+#include "trime/sizing/size_field.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace trime::generalise {
+namespace {
+
+using geometry::InnerArc;
+using geometry::Piece;
+using geometry::Vec2;
+
+constexpr double h = 0.02;
+
+class JoinLines : public ::testing::Test {
+protected:
+  JoinLines() { square_.loops.emplace_back().pieces = pieces_of({{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}}, 0); }
+
+  Vec2 at(double x, double y) const { return lattice_.snap({x, y}); }
+  std::optional<Partition> joined(const std::vector<InnerArc>& arcs, std::span<const Vec2> kept = {}) const {
+    Partition given;
+    given.boundary = square_;
+    given.curves.arcs = arcs;
+    given.curves.names = {"one", "two"};
+    given.curves.kinds = kinds_;
+    const sizing::UniformSize size(h);
+    return join_lines(given, {size, lattice_, kept});
+  }
+  /// Adds a hole around the middle of the square: one circle.
+  void add_hole() {
+    Piece circle;
+    circle.start = circle.end = at(0.7, 0.5);
+    circle.center = {0.5, 0.5};
+    circle.radius = 0.2;
+    circle.sweep = -2 * std::numbers::pi;
+    circle.circular = true;
+    geometry::Loop& hole = square_.loops.emplace_back();
+    hole.outer = false;
+    hole.pieces = {circle};
+  }
+  /// A ring around the hole.
+  InnerArc ring(double radius, double shift) const {
+    std::vector<Vec2> path;
+    for (int k = 0; k <= 100; ++k)
+      path.push_back(at(0.5 + shift + radius * std::cos(2 * std::numbers::pi * (k % 100) / 100),
+                        0.5 + radius * std::sin(2 * std::numbers::pi * (k % 100) / 100)));
+    InnerArc made = arc_of(path, 0, 0, 0);
+    made.closed = true;
+    return made;
+  }
+
+  geometry::Boundary square_;
+  std::vector<geometry::CurveKind> kinds_;
+
+private:
+  const geometry::Lattice lattice_ = geometry::Frame(geometry::Box{{0, 0}, {1, 1}}).lattice();
+};
+
+/// Is the place a corner of the boundary?
+bool is_corner(const geometry::Boundary& boundary, Vec2 p) {
+  return std::ranges::any_of(boundary.loops, [&](const geometry::Loop& loop) {
+    return std::ranges::any_of(loop.pieces, [&](const Piece& piece) { return piece.start == p && piece.corner; });
+  });
+}
+
+TEST_F(JoinLines, ACurveBesideTheBoundaryBelongsToIt) {
+  const std::optional<Partition> made = joined({arc_of({at(0.2, 0.06 * h), at(0.8, 0.1 * h)}, 0, 0, 0)});
+  ASSERT_TRUE(made);
+  EXPECT_TRUE(made->curves.arcs.empty());
+  EXPECT_NEAR(made->joined.rim.length, 0.6, 1e-6);
+  EXPECT_NEAR(made->joined.rim.farthest, 0.1 * h, 1e-12);
+  EXPECT_EQ(made->boundary.loops[0].pieces.size(), 4U);
+}
+
+TEST_F(JoinLines, WhatIsLeftEndsOnTheBoundary) {
+  const std::vector<Vec2> path{at(0.1, 0.3), at(0.2, 0.1 * h), at(0.7, 0.1 * h), at(0.8, 0.3)};
+  const std::optional<Partition> made = joined({arc_of(path, 0, 0, 0)});
+  ASSERT_TRUE(made);
+  ASSERT_EQ(made->curves.arcs.size(), 2U);
+  const InnerArc &before = made->curves.arcs[0], &behind = made->curves.arcs[1];
+  EXPECT_EQ(before.pieces.front().start, path.front());
+  EXPECT_EQ(behind.pieces.back().end, path.back());
+  for (const Vec2 foot : {before.pieces.back().end, behind.pieces.front().start}) {
+    EXPECT_EQ(foot.y, 0);
+    EXPECT_TRUE(is_corner(made->boundary, foot));
+  }
+  EXPECT_LT(std::fabs(before.pieces.back().end.x - 0.2), h);
+  EXPECT_EQ(made->boundary.loops[0].pieces.size(), 6U);
+  EXPECT_TRUE(made->is_relabelled);
+}
+
+TEST_F(JoinLines, AnEndJustBeforeTheBoundaryComesToLieOnIt) {
+  const std::optional<Partition> made = joined({arc_of({at(0.5, 0.4), at(0.5, 0.15 * h)}, 0, 0, 0)});
+  ASSERT_TRUE(made);
+  ASSERT_EQ(made->curves.arcs.size(), 1U);
+  EXPECT_EQ(made->curves.arcs[0].pieces.back().end, at(0.5, 0));
+  EXPECT_FALSE(joined({arc_of({at(0.5, 0.4), at(0.5, 0.25 * h)}, 0, 0, 0)}));
+}
+
+TEST_F(JoinLines, OnlyCurvesThatLeaveTheBoundaryAtASmallAngleAreCut) {
+  square_.loops[0].pieces = pieces_of({{0, 0}, {0.5, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}}, 0);
+  for (const double degrees : {5.0, 15.0, 30.0, 90.0}) {
+    const double angle = degrees * std::numbers::pi / 180;
+    const Vec2 middle = at(0.5 + 0.005 * std::cos(angle), 0.0051 * std::sin(angle)),
+               end = at(0.5 + 0.4 * std::cos(angle), 0.4 * std::sin(angle));
+    EXPECT_FALSE(joined({arc_of({at(0.5, 0), end}, 0, 0, 0)})) << degrees; // the angle is that of straight lines
+    const std::optional<Partition> made = joined({arc_of({at(0.5, 0), middle, end}, 0, 0, 0)});
+    ASSERT_EQ(made.has_value(), degrees < 20) << degrees;
+    if (!made)
+      continue;
+    ASSERT_EQ(made->curves.arcs.size(), 1U);
+    const Piece& last = made->curves.arcs[0].pieces.front();
+    EXPECT_EQ(last.start.y, 0);
+    EXPECT_GT(last.tangent(0).y, std::sin(1.0)); // about upright
+  }
+}
+
+class JoinCurves : public JoinLines {
+protected:
+  /// A line of many short pieces. @param bend its height in the middle
+  InnerArc line(double from, double to, double y, double bend, int part) const {
+    std::vector<Vec2> path;
+    for (int k = 0; k <= 200; ++k)
+      path.push_back(at(from + (to - from) * k / 200, y + bend * std::sin(std::numbers::pi * k / 200)));
+    return arc_of(path, part, 0, 0);
+  }
+};
+
+TEST_F(JoinCurves, LinesOfManyPiecesBecomeOne) {
+  const std::optional<Partition> made = joined({line(0.1, 0.9, 0.5, 0, 0), line(0.1, 0.9, 0.5 + 0.15 * h, 0, 1)});
+  ASSERT_TRUE(made);
+  ASSERT_EQ(made->curves.arcs.size(), 1U); // the first one
+  EXPECT_EQ(made->curves.arcs[0].pieces.size(), 200U);
+  EXPECT_NEAR(made->joined.lines.length, 0.8, 1e-6);
+  EXPECT_NEAR(made->joined.lines.farthest, 0.15 * h, 1e-9);
+  EXPECT_EQ(made->joined.rim.length, 0);
+  EXPECT_FALSE(made->is_relabelled);
+}
+
+TEST_F(JoinCurves, ALineThatComesNearForAWhileMeetsTheOtherOneUpright) {
+  const std::optional<Partition> made = joined({line(0.1, 0.9, 0.5, 0, 0), line(0.1, 0.9, 0.6, -0.1 + 0.1 * h, 1)});
+  ASSERT_TRUE(made);
+  ASSERT_EQ(made->curves.arcs.size(), 5U); // three parts of the first one, two of the other one
+  for (const std::size_t k : {3U, 4U}) {
+    const InnerArc& arc = made->curves.arcs[k];
+    const Piece& last = k == 3 ? arc.pieces.back() : arc.pieces.front();
+    EXPECT_NEAR(k == 3 ? last.end.y : last.start.y, 0.5, 1e-12);
+    EXPECT_NEAR(last.length(), 0.4 * h, 0.1 * h);
+    EXPECT_GT(std::fabs(last.tangent(0).y), 0.7);
+  }
+  EXPECT_EQ(made->curves.arcs[0].pieces.back().end, made->curves.arcs[3].pieces.back().end);
+  EXPECT_EQ(made->curves.arcs[2].pieces.front().start, made->curves.arcs[4].pieces.front().start);
+}
+
+TEST_F(JoinCurves, EndsNextToCurvesAndSplitCurvesStay) {
+  EXPECT_FALSE(joined({line(0.1, 0.9, 0.5, 0, 0), arc_of({at(0.5, 0.8), at(0.5, 0.5 + 0.1 * h)}, 1, 0, 0)}));
+  kinds_ = {{.split = true}, {}};
+  EXPECT_FALSE(joined({line(0.1, 0.9, 0.5, 0, 0), line(0.1, 0.9, 0.5 + 0.1 * h, 0, 1)}));
+}
+
+TEST_F(JoinCurves, EachOfABundleFollowsOneThatStays) {
+  std::vector<InnerArc> bundle;
+  for (int k = 0; k < 4; ++k)
+    bundle.push_back(line(0.1, 0.9, 0.5 + 0.15 * h * k, 0, k % 2));
+  const std::optional<Partition> made = joined(bundle);
+  ASSERT_TRUE(made);
+  ASSERT_EQ(made->curves.arcs.size(), 2U); // 0.3 h apart
+  EXPECT_NEAR(made->curves.arcs[1].pieces.front().start.y, 0.5 + 0.3 * h, 1e-12);
+}
+
+TEST_F(JoinLines, CurvesFartherAwayAndThoseThatMustStayStay) {
+  const InnerArc line = arc_of({at(0.1, 0.1 * h), at(0.5, 0.1 * h), at(0.9, 0.1 * h)}, 0, 0, 0);
+  EXPECT_FALSE(joined({arc_of({at(0.1, 0.3 * h), at(0.9, 0.3 * h)}, 0, 0, 0)}));
+  EXPECT_FALSE(joined({arc_of({at(0.1, 0.1 * h), at(0.9, 0.1 * h)}, 0, 0, 1)})); // between two regions
+  const std::vector<Vec2> kept{at(0.5, 0.1 * h)};
+  EXPECT_FALSE(joined({line}, kept));
+  EXPECT_TRUE(joined({line}));
+  kinds_ = {{.split = true}};
+  EXPECT_FALSE(joined({line}));
+  kinds_ = {{.weir_height = 2}};
+  EXPECT_FALSE(joined({line}));
+}
+
+TEST_F(JoinLines, ANodeOfSeveralCurvesStays) {
+  const Vec2 node = at(0.5, 0.1 * h);
+  EXPECT_FALSE(joined({arc_of({at(0.3, 0.3), node}, 0, 0, 0), arc_of({node, at(0.7, 0.3)}, 0, 0, 0),
+                       arc_of({node, at(0.5, 0.4)}, 1, 0, 0)}));
+}
+
+TEST_F(JoinLines, NothingIsCutThatAnotherCurveLiesBefore) {
+  const InnerArc line = arc_of({at(0.1, 0.3), at(0.2, 0.18 * h), at(0.8, 0.18 * h), at(0.9, 0.3)}, 0, 0, 0);
+  const InnerArc wall = arc_of({at(0.01, 0.05 * h), at(0.99, 0.05 * h)}, 1, 0, 0);
+  kinds_ = {{}, {.split = true}}; // which stays
+  EXPECT_FALSE(joined({line, wall}));
+  kinds_ = {};
+  const std::optional<Partition> made = joined({line, wall}); // first the wall, then the line
+  ASSERT_TRUE(made);
+  EXPECT_EQ(made->curves.arcs.size(), 2U);
+}
+
+TEST_F(JoinLines, RingsAroundACircle) {
+  add_hole();
+  const std::optional<Partition> all = joined({ring(0.2 + 0.1 * h, 0)});
+  ASSERT_TRUE(all);
+  EXPECT_TRUE(all->curves.arcs.empty());
+  const std::optional<Partition> made = joined({ring(0.24, 0.039)}); // 0.001 from the circle on the left
+  ASSERT_TRUE(made);
+  ASSERT_EQ(made->curves.arcs.size(), 1U);
+  const InnerArc& rest = made->curves.arcs[0];
+  EXPECT_FALSE(rest.closed);
+  for (const Vec2 foot : {rest.pieces.front().start, rest.pieces.back().end}) {
+    EXPECT_NEAR(length(foot - Vec2{0.5, 0.5}), 0.2, 1e-9);
+    EXPECT_TRUE(is_corner(made->boundary, foot));
+  }
+  for (std::size_t k = 1; k < rest.pieces.size(); ++k)
+    EXPECT_EQ(rest.pieces[k - 1].end, rest.pieces[k].start);
+}
+
+} // namespace
+} // namespace trime::generalise
