@@ -118,7 +118,8 @@ private:
       return false;
     if (const Arm* beside = arm_to(to, next); beside != nullptr)
       return merges(arm, *beside);
-    return tree_.has_room({to, next}, from, GeneraliseRules::clearance * sizing::checked_size(size_, from)) &&
+    return tree_.has_room({to, next}, nodes_.vertices.at(key(from)),
+                          GeneraliseRules::clearance * sizing::checked_size(size_, from)) &&
            std::ranges::none_of(arms_.at(key(to)), [&](const Arm& other) { return far_end(other) == far; });
   }
 

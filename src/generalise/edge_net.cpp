@@ -12,7 +12,7 @@ using geometry::InnerArc;
 using geometry::Piece;
 using geometry::Vec2;
 
-EdgeNet::EdgeNet(const std::vector<InnerArc>& arcs) {
+EdgeNet::EdgeNet(const std::vector<InnerArc>& arcs, const geometry::Boundary& boundary) {
   std::map<std::pair<double, double>, LocalIndex> vertices;
   const auto vertex_at = [&](Vec2 p) {
     const auto [entry, is_new] = vertices.try_emplace({p.x, p.y}, static_cast<LocalIndex>(places_.size()));
@@ -38,6 +38,11 @@ EdgeNet::EdgeNet(const std::vector<InnerArc>& arcs) {
     }
   }
   given_edges_ = edge_count();
+  is_on_rim_.assign(places_.size(), 0);
+  for (const geometry::Loop& loop : boundary.loops)
+    for (const Piece& piece : loop.pieces)
+      if (const auto found = vertices.find({piece.start.x, piece.start.y}); found != vertices.end())
+        is_on_rim_[at(found->second)] = 1;
 }
 
 void EdgeNet::add(Edge edge) {
@@ -109,7 +114,7 @@ void EdgeNet::divide(LocalIndex e, LocalIndex vertex, double distance) {
 LocalIndex EdgeNet::beside(LocalIndex e, bool at_end) const {
   const Edge& one = edge(e);
   const LocalIndex v = at_end ? one.b : one.a;
-  if (around(v).size() != 2 || (is_node_[at(v)] && !is_changed_[at(v)]))
+  if (around(v).size() != 2 || is_on_rim_[at(v)] || (is_node_[at(v)] && !is_changed_[at(v)]))
     return -1;
   const LocalIndex f = around(v)[0] == e ? around(v)[1] : around(v)[0];
   const Edge& other = edge(f);

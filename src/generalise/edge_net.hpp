@@ -34,7 +34,8 @@ public:
     bool is_curve() const { return piece.part >= 0 && left == right; }
   };
 
-  explicit EdgeNet(const std::vector<geometry::InnerArc>& arcs);
+  /// @param boundary of the shape, in whose vertices arcs end
+  EdgeNet(const std::vector<geometry::InnerArc>& arcs, const geometry::Boundary& boundary);
 
   LocalIndex vertex_count() const { return static_cast<LocalIndex>(places_.size()); }
   geometry::Vec2 place(LocalIndex vertex) const { return places_[at(vertex)]; }
@@ -67,6 +68,7 @@ private:
   std::vector<std::vector<LocalIndex>> around_;
   std::vector<char> is_node_;    // by vertex: an end of an open arc
   std::vector<char> is_changed_; // by vertex: edges there were divided or joined
+  std::vector<char> is_on_rim_;  // by vertex: it lies on the boundary
 };
 
 } // namespace trime::generalise

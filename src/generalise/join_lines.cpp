@@ -4,6 +4,7 @@
 #include "generalise/meeting_pieces.hpp"
 #include "generalise/rules.hpp"
 #include "geometry/cornered_boundary.hpp"
+#include "geometry/piece_parts.hpp"
 #include "trime/geometry/piece_tree.hpp"
 
 #include <algorithm>
@@ -266,8 +267,9 @@ private:
     }
     if (arcs_[arc].closed)
       return runs;
-    const auto is_junction = [&](const Sample& end) { // from which an edge may lead to the other line
-      return end.is_near() && !is_free_end(end) && !is_kept(end.place) && !(end.distance < touch * end.h);
+    const auto is_junction = [&](const Sample& end) { // from which an edge that is not too short leads to the line
+      return end.is_near() && !is_free_end(end) && !is_kept(end.place) &&
+             end.distance > GeneraliseRules::snap_distance * end.h;
     };
     if (!runs.empty() && runs.front().first == 0 && is_junction(all.front()))
       ++runs.front().first;

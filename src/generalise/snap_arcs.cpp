@@ -74,7 +74,7 @@ class ArcSnapper {
 public:
   ArcSnapper(const std::vector<InnerArc>& arcs, const Boundary& boundary, const ArcRules& rules,
              const VertexTree& vertices)
-      : boundary_(boundary), size_(rules.size), kinds_(rules.kinds), vertices_(vertices), net_(arcs) {
+      : boundary_(boundary), size_(rules.size), kinds_(rules.kinds), vertices_(vertices), net_(arcs, boundary) {
     for (const geometry::Loop& loop : boundary.loops)
       rim_.insert(rim_.end(), loop.pieces.begin(), loop.pieces.end());
   }

@@ -159,12 +159,15 @@ bool VertexTree::is_empty(std::array<LocalIndex, 3> corners) const {
   return is_empty(corners, {points_[at(corners[0])], points_[at(corners[1])], points_[at(corners[2])]});
 }
 
-bool VertexTree::has_room(const geometry::Segment& segment, Vec2 from, double height) const {
-  const Vec2 along = segment.b - segment.a, away = from - segment.a, across{-along.y, along.x};
+bool VertexTree::has_room(const geometry::Segment& segment, LocalIndex from, double height) {
+  const Vec2 along = segment.b - segment.a, away = points_[at(from)] - segment.a, across{-along.y, along.x};
   const double share = std::clamp(dot(away, along) / squared_length(along), 0.0, 1.0),
                side = cross(along, away) > 0 ? -1 : 1;
   const Vec2 beyond = segment.a + share * along + (side * height / geometry::length(along)) * across;
-  return is_empty_at({segment.a, lattice_.snap(beyond), segment.b});
+  remove(from); // it may lie on the segment
+  const bool is_empty = is_empty_at({segment.a, lattice_.snap(beyond), segment.b});
+  restore(from);
+  return is_empty;
 }
 
 bool VertexTree::is_empty_at(std::array<Vec2, 3> corners) const {

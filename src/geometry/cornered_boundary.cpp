@@ -2,6 +2,7 @@
 #include "geometry/cornered_boundary.hpp"
 
 #include "core/angle.hpp"
+#include "geometry/piece_parts.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
@@ -19,24 +20,6 @@ namespace {
 constexpr double search_reach = 8;
 
 } // namespace
-
-std::array<Piece, 2> divided(const Piece& piece, Vec2 p) {
-  std::array<Piece, 2> parts{piece, piece};
-  parts[0].end = parts[1].start = p;
-  if (piece.circular) {
-    const Vec2 from = piece.start - piece.center, to = p - piece.center;
-    double sweep = angle_of(cross(from, to), dot(from, to));
-    if (piece.sweep > 0 && sweep < 0)
-      sweep += 2 * pi;
-    if (piece.sweep < 0 && sweep > 0)
-      sweep -= 2 * pi;
-    parts[0].sweep = sweep;
-    parts[1].sweep = piece.sweep - sweep;
-    parts[1].start_angle = angle_of(to.y, to.x);
-  }
-  parts[1].corner = true;
-  return parts;
-}
 
 std::vector<Vec2> images_of(const Periods& periods) {
   std::vector<Vec2> shifts{{0, 0}};

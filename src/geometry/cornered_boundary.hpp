@@ -6,16 +6,12 @@
 #include "trime/geometry/piece_tree.hpp"
 #include "trime/geometry/vec2.hpp"
 
-#include <array>
 #include <cstdint>
 #include <map>
 #include <unordered_map>
 #include <vector>
 
 namespace trime::geometry {
-
-/// Returns the part of a piece before p, and the part after it, which begins with a corner. @pre p lies on the piece
-std::array<Piece, 2> divided(const Piece& piece, Vec2 p);
 
 /// @brief A boundary whose pieces are divided at given points. Each loop is a linked list of pieces and parts of
 /// pieces.

@@ -3,6 +3,7 @@
 
 #include "core/angle.hpp"
 #include "geometry/inner_wedges.hpp"
+#include "geometry/piece_parts.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -110,16 +111,6 @@ private:
 };
 
 } // namespace
-
-Piece reversed(Piece piece) {
-  std::swap(piece.start, piece.end);
-  if (piece.circular) {
-    const Vec2 from = piece.start - piece.center;
-    piece.start_angle = angle_of(from.y, from.x);
-    piece.sweep = -piece.sweep;
-  }
-  return piece;
-}
 
 Piece moved(Piece piece, Vec2 by) {
   piece.start = piece.start + by;

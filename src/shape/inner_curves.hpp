@@ -16,8 +16,6 @@ struct CurvePiece {
   geometry::Piece piece;   ///< Piece::part is the number of the curve, or -1 for an interface on which no curve lies
 };
 
-/// Returns the piece in the other direction.
-geometry::Piece reversed(geometry::Piece piece);
 /// Returns the piece moved by a multiple of the periods.
 geometry::Piece moved(geometry::Piece piece, geometry::Vec2 by);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shape/inner_pieces.hpp"
 
+#include "geometry/piece_parts.hpp"
+
 #include "trime/core/error.hpp"
 
 #include <utility>

@@ -4,6 +4,8 @@
 // border are one node, and the chains are unrolled.
 #include "shape/make_boundary.hpp"
 
+#include "geometry/piece_parts.hpp"
+
 #include "geometry/box_tree.hpp"
 #include "shape/arrangement.hpp"
 #include "shape/boundary_area.hpp"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shape/small_faces.hpp"
 
+#include "geometry/piece_parts.hpp"
+
 #include "core/angle.hpp"
 #include "shape/boundary_area.hpp"
 #include "shape/inner_curves.hpp"

@@ -74,7 +74,7 @@ TEST(InnerCurves, FlatFacesKeepTheirTwoSides) {
                                                {{0.375, 0}, {0.4375, 0.004}, {0.5, 0}}});
   InnerCurves given = domain.curves();
   given.kinds.assign(3, {});
-  given.kinds[1].split = true; // so it does not become one line with the first curve
+  given.kinds[1].split = given.kinds[2].split = true; // so they do not become one line with others
   const InnerCurves thinned =
       generalise::thin_inner_curves(given, domain.boundary(), UniformSize(0.1), unit_lattice(), {});
   ASSERT_EQ(thinned.arcs.size(), 3U);

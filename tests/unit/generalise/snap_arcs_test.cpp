@@ -71,6 +71,16 @@ TEST_F(SnapArcs, ACurveLeavesItsInterfaceAtAVertex) {
   EXPECT_EQ(std::pair(result.arcs[1].left, result.arcs[1].right), std::pair(1, 1));
 }
 
+TEST_F(SnapArcs, ArcsEndOnTheBoundary) {
+  const Vec2 rim{1, 0.5};
+  const SnappedArcs result = snapped({arc_of({at(0.8, 0.45), rim}, 0, 0, 0), arc_of({rim, at(0.8, 0.55)}, 0, 0, 0),
+                                      arc_of({at(0.9, 0.3), at(0.9, 0.474)}, 1, 0, 0)});
+  EXPECT_EQ(result.joined.vertices, 1); // the first arc leads through the end of the last one
+  for (const InnerArc& arc : result.arcs)
+    for (std::size_t k = 1; k < arc.pieces.size(); ++k)
+      EXPECT_NE(arc.pieces[k].start, rim);
+}
+
 class SnapCurves : public SnapArcs {
 protected:
   /// A river along the middle; the tributary comes from above.
