@@ -118,8 +118,8 @@ private:
       return false;
     if (const Arm* beside = arm_to(to, next); beside != nullptr)
       return merges(arm, *beside);
-    return tree_.has_room({to, next}, nodes_.vertices.at(key(from)),
-                          GeneraliseRules::clearance * sizing::checked_size(size_, from)) &&
+    const double clearance = GeneraliseRules::clearance * sizing::checked_size(size_, from);
+    return (curve(arm.arc) < 0 || tree_.has_room({to, next}, nodes_.vertices.at(key(from)), clearance)) &&
            std::ranges::none_of(arms_.at(key(to)), [&](const Arm& other) { return far_end(other) == far; });
   }
 

@@ -55,7 +55,8 @@ struct GeneraliseRules {
   static constexpr double vertex_area = 0.12;
   /// [h] Such a vertex stays if it is farther from the edge that would replace it. Not measured.
   static constexpr double vertex_move = 0.4;
-  /// [h] Such a vertex stays if another vertex lies beyond that edge, but nearer to it than this. Not measured.
+  /// [h] Such a vertex of a curve stays if another vertex lies beyond that edge, but nearer to it than this. Not
+  /// measured.
   static constexpr double clearance = 0.01;
   /// [h] Two nodes of curves and interfaces that are joined by a shorter edge become one node, because shorter edges
   /// need triangles that are as small. Not measured.

@@ -148,7 +148,7 @@ private:
     return area < GeneraliseRules::vertex_area * h * h && chord.a != chord.b &&
            geometry::squared_distance(place(k), chord) <= most * most &&
            tree_.is_empty({vertices_[previous_[k]], vertices_[k], vertices_[next_[k]]}) &&
-           tree_.has_room(chord, vertices_[k], GeneraliseRules::clearance * h);
+           (arc_.pieces.front().part < 0 || tree_.has_room(chord, vertices_[k], GeneraliseRules::clearance * h));
   }
 
   /// Would an arc that must bend, and bends, keep only a vertex on the line between its ends?
