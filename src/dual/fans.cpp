@@ -37,7 +37,7 @@ FanTriangle fan_triangle(const Cells& cells, LocalIndex site, LocalIndex t) {
   return {triangle.corner_behind(site, 1), triangle.corner_behind(site, 2), t};
 }
 
-/// What the triangles around a site are; `whole` is a closed fan in one region.
+/// Says how the triangles around a site hang together; `whole` is a closed fan in one region.
 enum class FanKind : std::uint8_t { open, closed, whole, broken };
 
 /// Puts the triangles of one site into their order. @param triangles a buffer

@@ -107,7 +107,7 @@ public:
   const Line& operator[](std::size_t k) const { return lines_[k]; }
   std::vector<std::size_t> within(Vec2 p, double distance) const { return tree_.within(p, distance); }
 
-  /// Does a straight piece meet another piece? @param except a piece that does not count @param own others
+  /// Does a straight piece meet another piece? @param except a piece that does not count @param own further ones
   bool meets(const Piece& edge, std::size_t except, const OwnPieces& own) const {
     return std::ranges::any_of(within(0.5 * (edge.start + edge.end), 0.5 * edge.length()), [&](std::size_t k) {
       const Line& other = lines_[k];
@@ -144,7 +144,7 @@ public:
     }
   }
 
-  /// Returns whether any arc has lost a part.
+  /// Returns whether any arc has lost a part, or a ring begins elsewhere, so that the next round can cut it.
   bool run() {
     std::vector<std::vector<InnerArc>> rest(arcs_.size());
     for (std::size_t k = 0; k < arcs_.size(); ++k)
@@ -234,7 +234,7 @@ private:
           along = next;
           continue;
         }
-        for (along += step * h; along < next; along += step * all.back().h)
+        for (along += step * h; along < next && all.size() < most_places; along += step * all.back().h)
           all.push_back(sample(arc, k, along, before));
         along = next;
       }

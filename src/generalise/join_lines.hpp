@@ -11,14 +11,18 @@ namespace trime::generalise {
 
 /// @brief Where a curve comes nearer to the boundary, or to a curve before it, than GeneraliseRules::snap_distance h,
 /// its part that lies within GeneraliseRules::rim_distance h of that line belongs to that line. What is left of the
-/// curve ends on the line, at the foot of the perpendicular there or at a near vertex. A free end of a curve that lies
-/// so near to the line belongs to that part. A curve that leaves the line at more than about 20 degrees stays. So do
-/// interfaces, curves that are split, weirs, and parts with a place that the user asked for or with a node in which
-/// other curves meet. A curve may lose all of its edges.
+/// curve ends on the line, at the foot of the perpendicular there or at a near vertex. A free end next to
+/// the boundary belongs to that part, and so does one that follows another curve for more than about h. A curve may
+/// lose all of its edges.
+///
+/// A curve that leaves the line at more than about 20 degrees stays. So do straight lines that meet the line at any
+/// angle, interfaces, curves that are split, weirs, and parts with a place that the user asked for. A node in which
+/// other curves meet stays, too: if it is farther from the line than snap_distance h, an edge leads from it to the
+/// line, and otherwise the part stays.
 ///
 /// Each new edge was found not to meet any other one, so no crossings arise. Nothing else moves by more than rounding.
 /// Adds to Partition::joined. Cost: O(m log n) for n pieces and m places along the curves, which are 0.1 h apart where
-/// other lines are near, in each of a few rounds. Deterministic; uses one thread.
+/// other lines are near, and O(e^2) for e new edges, in each of a few rounds. Deterministic; uses one thread.
 /// @return nothing if no curve is so near to another line
 /// @pre the container is not periodic
 /// @throws GeometryError if a size is not positive and finite

@@ -36,6 +36,7 @@ public:
   bool is_empty_at(std::array<geometry::Vec2, 3> corners) const;
   /// Returns whether no remaining vertex but `from` lies next to the segment, on the other side than `from`: in the
   /// triangle over the segment with this height, whose apex is opposite to `from`.
+  /// @pre `from` remains
   bool has_room(const geometry::Segment& segment, LocalIndex from, double height);
   void remove(LocalIndex vertex) { is_left_[at(vertex)] = 0; }
   void restore(LocalIndex vertex) { is_left_[at(vertex)] = 1; }

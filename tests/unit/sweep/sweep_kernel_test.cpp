@@ -244,7 +244,7 @@ TEST(QualityKernel, MeasuresAsTheScalarSumsDo) {
   }
 }
 
-/// What a tile kept must not survive a move of its sites, and what all tiles kept adds up to the same sums.
+/// The sums that tiles keep add up to those that are computed again, and a tile forgets its sums when its sites move.
 TEST(StarMeasures, EqualTheScalarSumsAlsoWhereTilesKeepThem) {
   for (const bool is_graded : {false, true}) {
     Cloud cloud(0.4, is_graded, true);
