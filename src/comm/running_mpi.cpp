@@ -47,8 +47,15 @@ void warn_of_one_thread() {
                  thread_count());
 }
 
+/// Whether the first call found a choice of the user, or came before MPI could open a file.
+bool writer_is_chosen_in_time() {
+  static const bool in_time = !mpi_is_running() || std::getenv("OMPI_MCA_fcoll") != nullptr;
+  return in_time;
+}
+
 #ifdef OPEN_MPI
-/// Returns the setting by which Open MPI chooses the file writer; "?" if it is not known.
+/// Returns the setting by which Open MPI chooses the file writer; "?" if it is not known. Takes 0.2 s, since Open MPI
+/// then loads all its components.
 std::string chosen_writers() {
   std::string value = "?";
   int provided = 0, index = 0, length = 0;
@@ -77,6 +84,7 @@ bool mpi_is_running() {
 }
 
 void avoid_wrong_writer() {
+  writer_is_chosen_in_time();
   setenv("OMPI_MCA_fcoll", "^vulcan", 0); // stays if the user has chosen a writer
 }
 
@@ -91,7 +99,7 @@ void join_running_mpi() {
 void warn_of_wrong_writer([[maybe_unused]] bool speaks) {
 #if defined(OPEN_MPI) && OMPI_MAJOR_VERSION == 4
   [[maybe_unused]] static const bool is_done = [&] {
-    if (chosen_writers().empty() && speaks)
+    if (!writer_is_chosen_in_time() && chosen_writers().empty() && speaks)
       std::fputs("trime: warning: the program opened a file by MPI before it used this library, so Open MPI may write "
                  "mesh files by its component 'vulcan', which is known to write wrong data. Every file is read back "
                  "and compared; setting OMPI_MCA_fcoll=^vulcan avoids the risk\n",
