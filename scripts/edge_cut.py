@@ -44,7 +44,7 @@ def made_mesh(program, shape, points, folder):
 def read_mesh(path):
     """Number of points, triangles [M, 3]."""
     with h5py.File(path) as file:
-        return len(file["Mesh/mesh/geometry"]), file["Mesh/mesh/topology"][:]
+        return len(file["Mesh/mesh/geometry"]), file["Mesh/mesh/topology"][:].astype(numpy.int64)
 
 
 def shared_sides(points, triangles):

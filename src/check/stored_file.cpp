@@ -58,6 +58,11 @@ std::string text_of_shape(const std::vector<std::int64_t>& shape) {
   return "[" + text + "]";
 }
 
+/// @param types names of types with spaces between, such as "int32 or int64"
+bool is_one_of(const std::string& type, const std::string& types) {
+  return fmt::format(" {} ", types).find(fmt::format(" {} ", type)) != std::string::npos;
+}
+
 bool fits(const std::vector<std::int64_t>& shape, const std::vector<std::int64_t>& wanted) {
   bool same = shape.size() == wanted.size();
   for (std::size_t k = 0; same && k < shape.size(); ++k)
@@ -133,7 +138,7 @@ std::vector<T> StoredFile::array(const std::string& name, const std::string& typ
   }
   const Handle space(H5Dget_space(set), H5Sclose), stored(H5Dget_type(set), H5Tclose);
   const std::vector<std::int64_t> shape = shape_of(space);
-  if (name_of_type(stored) != type || !fits(shape, wanted)) {
+  if (!is_one_of(name_of_type(stored), type) || !fits(shape, wanted)) {
     wrong.note(
         [&] { return fmt::format("{} is {} {}, {}", name, name_of_type(stored), text_of_shape(shape), expected()); });
     return values;
@@ -232,13 +237,16 @@ struct ArrayReader {
   }
 };
 
+/// Of the vertices of triangles; files of earlier versions and large files have the longer one.
+constexpr const char* id_types = "int32 or int64";
+
 /// Points, triangles and facets; points and triangles from the plain arrays where the file has them.
 void read_elements(const ArrayReader& reader, Mesh& mesh) {
   const std::size_t columns = mesh.has_plain ? 2 : 3;
   const std::vector<double> xy = mesh.has_plain ? reader.reals("/Mesh/mesh/geometry", "float64", {-1, 2})
                                                 : reader.reals("/VTKHDF/Points", "float64", {-1, 3});
-  const std::vector<std::int64_t> ids = mesh.has_plain ? reader.integers("/Mesh/mesh/topology", "int64", {-1, 3})
-                                                       : reader.integers("/VTKHDF/Connectivity", "int64", {-1});
+  const std::vector<std::int64_t> ids = mesh.has_plain ? reader.integers("/Mesh/mesh/topology", id_types, {-1, 3})
+                                                       : reader.integers("/VTKHDF/Connectivity", id_types, {-1});
   const std::vector<std::int64_t> ends = reader.integers("/Mesh/facets/topology", "int64", {-1, 2});
   for (std::size_t k = 0; k + columns <= xy.size(); k += columns)
     mesh.points.push_back({xy[k], xy[k + 1]});
@@ -307,8 +315,8 @@ void read_fields(const ArrayReader& reader, Mesh& mesh) {
 void read_vtk(const ArrayReader& reader, Mesh& mesh) {
   const auto n = std::ssize(mesh.points), m = std::ssize(mesh.triangles);
   mesh.vtk_points = reader.reals("/VTKHDF/Points", "float64", {n, 3});
-  mesh.connectivity = reader.integers("/VTKHDF/Connectivity", "int64", {3 * m});
-  mesh.offsets = reader.integers("/VTKHDF/Offsets", "int64", {m + 1});
+  mesh.connectivity = reader.integers("/VTKHDF/Connectivity", id_types, {3 * m});
+  mesh.offsets = reader.integers("/VTKHDF/Offsets", id_types, {m + 1});
   mesh.types = reader.integers("/VTKHDF/Types", "uint8", {m});
   for (const char* name : {"/VTKHDF/NumberOfPoints", "/VTKHDF/NumberOfCells", "/VTKHDF/NumberOfConnectivityIds"})
     for (const std::int64_t count : reader.integers(name, "int64", {1}))

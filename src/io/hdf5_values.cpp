@@ -57,6 +57,20 @@ SmallValues text_column(const std::vector<std::string>& texts) {
 
 } // namespace
 
+Hdf5Properties group_properties() {
+  Hdf5Properties properties(H5Pcreate(H5P_GROUP_CREATE), "make HDF5 properties");
+  checked(H5Pset_obj_track_times(properties, false), "set HDF5 properties");
+  return properties;
+}
+
+Hdf5Properties dataset_properties() {
+  Hdf5Properties properties(H5Pcreate(H5P_DATASET_CREATE), "make HDF5 properties");
+  checked(H5Pset_obj_track_times(properties, false), "set HDF5 properties");
+  checked(H5Pset_fill_time(properties, H5D_FILL_TIME_NEVER), "set HDF5 properties");
+  checked(H5Pset_alloc_time(properties, H5D_ALLOC_TIME_EARLY), "set HDF5 properties");
+  return properties;
+}
+
 Hdf5Space array_space(hsize_t rows, hsize_t columns) {
   const hsize_t extent[2] = {rows, columns};
   return Hdf5Space(H5Screate_simple(columns == 0 ? 1 : 2, extent, nullptr), "make an HDF5 space");

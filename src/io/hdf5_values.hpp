@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Converts attributes and small datasets to types and dataspaces of HDF5. Nothing in this file accesses a file.
+// Converts attributes and small datasets to types, dataspaces and properties of HDF5. Nothing in this file accesses a
+// file.
 #pragma once
 
 #include "io/hdf5_handle.hpp"
@@ -14,6 +15,11 @@ namespace trime::io {
 /// Returns the dataspace of an array.
 /// @param columns 0 for a one-dimensional array
 Hdf5Space array_space(hsize_t rows, hsize_t columns);
+
+/// Returns the properties of groups and datasets. Objects have no times of their own, so that equal meshes make equal
+/// objects. A dataset gets its room at once, and HDF5 does not fill it.
+Hdf5Properties group_properties();
+Hdf5Properties dataset_properties();
 
 /// The values of an attribute or of a small dataset in the form that HDF5 writes.
 struct SmallValues {

@@ -4,7 +4,9 @@
 #include "comm/agree.hpp"
 #include "io/extra_arrays.hpp"
 #include "io/extra_group.hpp"
+#include "io/id_bytes.hpp"
 #include "io/labelled_lines.hpp"
+#include "io/mesh_file_start.hpp"
 #include "io/slab_file.hpp"
 #include "io/temporary_file.hpp"
 #include "io/xdmf.hpp"
@@ -71,27 +73,33 @@ SlabArray computed(const std::string& path, const mesh::Slab& slab, std::int64_t
   return {path, value_type<T>(), sizeof(T), 0, slab, rows, fill};
 }
 
-/// Global ids of the vertices of triangles: three columns, or (0) one long one.
-SlabArray vertex_ids(const std::string& path, const mesh::DistributedMesh& mesh, hsize_t columns) {
+/// Global ids, as T, of the vertices of triangles: three columns, or (0) one long one.
+template <class T>
+SlabArray vertex_ids_as(const std::string& path, const mesh::DistributedMesh& mesh, hsize_t columns) {
   const std::int64_t ids_per_row = columns == 0 ? 1 : 3, rows_per_triangle = 3 / ids_per_row;
   const auto fill = [&mesh, ids_per_row](std::int64_t first, std::int64_t count, std::byte* out) {
     const LocalIndex* vertices = mesh.triangles.data()->data() + ids_per_row * first;
-    std::int64_t* ids = values_of<std::int64_t>(out);
+    T* ids = values_of<T>(out);
     if (mesh.foreign.empty())
-      std::transform(vertices, vertices + ids_per_row * count, ids,
-                     [begin = mesh.point_slab.first](LocalIndex vertex) { return begin + vertex; });
+      std::transform(
+          vertices, vertices + ids_per_row * count, ids,
+          [begin = static_cast<T>(mesh.point_slab.first)](LocalIndex vertex) -> T { return begin + vertex; });
     else
       std::transform(vertices, vertices + ids_per_row * count, ids,
-                     [&mesh](LocalIndex vertex) { return mesh.global_id(vertex); });
+                     [&mesh](LocalIndex vertex) { return static_cast<T>(mesh.global_id(vertex)); });
   };
   const mesh::Slab& slab = mesh.triangle_slab;
   return {path,
-          H5T_NATIVE_INT64,
-          sizeof(std::int64_t),
+          value_type<T>(),
+          sizeof(T),
           columns,
           {rows_per_triangle * slab.first, rows_per_triangle * slab.total},
           rows_per_triangle * static_cast<std::int64_t>(mesh.triangles.size()),
           fill};
+}
+SlabArray vertex_ids(const std::string& path, const mesh::DistributedMesh& mesh, hsize_t columns) {
+  return id_bytes(mesh.triangle_slab.total) == 4 ? vertex_ids_as<std::int32_t>(path, mesh, columns)
+                                                 : vertex_ids_as<std::int64_t>(path, mesh, columns);
 }
 
 /// Points with z = 0, as VTK wants them.
@@ -116,19 +124,20 @@ SlabArray offsets(const std::string& path, const mesh::DistributedMesh& mesh) {
   if (rows > 0 && slab.first + rows == slab.total)
     ++rows;
   slab.total += 1;
+  if (id_bytes(mesh.triangle_slab.total) == 4)
+    return computed<std::int32_t>(path, slab, rows,
+                                  [](std::int64_t row) { return static_cast<std::int32_t>(3 * row); });
   return computed<std::int64_t>(path, slab, rows, [](std::int64_t row) { return 3 * row; });
 }
 
 void write_fields(SlabFile& file, const std::string& cells, const std::string& points,
                   const mesh::DistributedMesh& mesh) {
-  file.group(cells);
   file.slab(stored<float>(cells + "/alpha", mesh.triangle_slab, 0, mesh.alpha));
   file.slab(stored<float>(cells + "/beta", mesh.triangle_slab, 0, mesh.beta));
   file.slab(mesh.region.empty()
                 ? computed<std::int32_t>(cells + "/region", mesh.triangle_slab, std::ssize(mesh.triangles),
                                          [](std::int64_t) { return std::int32_t{1}; })
                 : stored<std::int32_t>(cells + "/region", mesh.triangle_slab, 0, mesh.region));
-  file.group(points);
   file.slab(stored<std::int32_t>(points + "/boundary", mesh.point_slab, 0, mesh.boundary));
   file.slab(stored<float>(points + "/size", mesh.point_slab, 0, mesh.size));
   file.slab(stored<std::uint8_t>(points + "/fixed", mesh.point_slab, 0, mesh.fixed));
@@ -136,21 +145,15 @@ void write_fields(SlabFile& file, const std::string& cells, const std::string& p
     file.slab(stored<double>(points + "/depth", mesh.point_slab, 0, *mesh.depth));
 }
 
-void write_vtkhdf(SlabFile& file, const mesh::DistributedMesh& mesh) {
-  file.group("/VTKHDF");
-  const std::int64_t version[2] = {1, 0};
-  file.attribute("/VTKHDF", "Version", version);
-  file.ascii_attribute("/VTKHDF", "Type", "UnstructuredGrid");
-  const std::int64_t points = mesh.point_slab.total, triangles = mesh.triangle_slab.total;
-  file.column("/VTKHDF", {"NumberOfPoints", std::vector<std::int64_t>{points}});
-  file.column("/VTKHDF", {"NumberOfCells", std::vector<std::int64_t>{triangles}});
-  file.column("/VTKHDF", {"NumberOfConnectivityIds", std::vector<std::int64_t>{3 * triangles}});
-  file.slab(points_in_space("/VTKHDF/Points", mesh));
-  file.slab(vertex_ids("/VTKHDF/Connectivity", mesh, 0));
+/// @param with_elements false: points and triangles show those of the plain mesh
+void write_vtkhdf(SlabFile& file, const mesh::DistributedMesh& mesh, bool with_elements) {
+  if (with_elements) {
+    file.slab(points_in_space("/VTKHDF/Points", mesh));
+    file.slab(vertex_ids("/VTKHDF/Connectivity", mesh, 0));
+  }
   file.slab(offsets("/VTKHDF/Offsets", mesh));
   constexpr std::uint8_t vtk_triangle = 5;
-  file.slab(computed<std::uint8_t>("/VTKHDF/Types", mesh.triangle_slab,
-                                   static_cast<std::int64_t>(mesh.triangles.size()),
+  file.slab(computed<std::uint8_t>("/VTKHDF/Types", mesh.triangle_slab, std::ssize(mesh.triangles),
                                    [](std::int64_t) { return vtk_triangle; }));
 }
 
@@ -253,22 +256,6 @@ void write_lines(SlabFile& file, const LabelledLines& lines) {
   file.slab(stored<std::int32_t>("/Mesh/lines/labels", lines.slab, 0, lines.labels));
 }
 
-void write_metadata(SlabFile& file, const Metadata& metadata) {
-  file.group("/trime_mpi");
-  for (const Attribute& attribute : metadata.attributes)
-    file.attribute("/trime_mpi", attribute);
-  for (const Text& text : metadata.texts)
-    file.text("/trime_mpi/" + text.name, text.text);
-  for (const MetadataGroup& group : metadata.groups) {
-    const std::string path = "/trime_mpi/" + group.name;
-    file.group(path);
-    for (const Attribute& attribute : group.attributes)
-      file.attribute(path, attribute);
-    for (const Column& column : group.columns)
-      file.column(path, column);
-  }
-}
-
 /// Points are numbered along the ranks: those of rank r begin at first_point[r]. Every rank writes its own row.
 void write_ranks(SlabFile& file, const mesh::DistributedMesh& mesh, const comm::Communicator& comm) {
   file.group("/trime_mpi/ranks");
@@ -276,16 +263,12 @@ void write_ranks(SlabFile& file, const mesh::DistributedMesh& mesh, const comm::
                                    [&mesh](std::int64_t) { return mesh.point_slab.first; }));
 }
 
-/// Without any view the file is still a mesh.
-bool has_plain_mesh(const MeshFileOptions& options) {
-  return options.xdmf || !options.vtkhdf;
-}
-
 /// Size of the file, a little too large.
 std::int64_t file_bytes(const MeshFileOptions& options, const mesh::DistributedMesh& mesh, const Metadata& metadata) {
-  const std::int64_t vtkhdf = options.vtkhdf ? 1 : 0, plain = has_plain_mesh(options) ? 1 : 0;
-  const std::int64_t per_point = 9 + 24 * vtkhdf + 16 * plain + (mesh.depth ? 8 : 0),
-                     per_triangle = 12 + 33 * vtkhdf + 24 * plain;
+  const std::int64_t vtkhdf = options.vtkhdf ? 1 : 0, only_vtkhdf = has_plain_mesh(options) ? 0 : 1,
+                     per_id = id_bytes(mesh.triangle_slab.total);
+  const std::int64_t per_point = 9 + 16 + 8 * only_vtkhdf + (mesh.depth ? 8 : 0),
+                     per_triangle = 12 + 3 * per_id + (1 + per_id) * vtkhdf;
   constexpr std::int64_t headers = 64 << 10, per_facet = 32, per_line = 20, per_inner_edge = 56, per_pair = 24;
   std::int64_t bytes =
       headers + per_point * mesh.point_slab.total + per_triangle * mesh.triangle_slab.total +
@@ -321,10 +304,11 @@ std::int64_t write_hdf5(const std::string& path, const FileContent& content, con
   const auto markers = facet_markers(options, mesh);
   const std::size_t parts = options.part_markers.size(), curves = curve_names(metadata).size();
   const LabelledLines lines = has_inner_edges(mesh) ? labelled_lines(mesh, parts, curves, comm) : LabelledLines{};
-  SlabFile file(comm, path, content.bytes());
-  file.group("/Mesh");
+  SlabFile file(comm, path, content.bytes(), [&content](const FileStart& start) {
+    start_mesh_file(start, content.options, content.mesh, content.metadata);
+  });
   if (options.vtkhdf)
-    write_vtkhdf(file, mesh);
+    write_vtkhdf(file, mesh, !has_plain_mesh(options));
   write_fields(file, field_group(options, "CellData"), field_group(options, "PointData"), mesh);
   if (has_plain_mesh(options))
     write_plain_mesh(file, mesh);
@@ -336,7 +320,6 @@ std::int64_t write_hdf5(const std::string& path, const FileContent& content, con
   write_splits(file, mesh);
   for (const ExtraGroup& group : groups)
     write_group(file, group);
-  write_metadata(file, metadata);
   write_ranks(file, mesh, comm);
   file.verify();
   file.close();

@@ -35,15 +35,6 @@ void fill_beside(const Work& work, const SlabArray& array, std::int64_t first, s
   });
 }
 
-/// Objects without times of their own, so that equal meshes make equal objects.
-Hdf5Properties dataset_properties() {
-  Hdf5Properties properties(H5Pcreate(H5P_DATASET_CREATE), "make HDF5 properties");
-  checked(H5Pset_obj_track_times(properties, false), "set HDF5 properties");
-  checked(H5Pset_fill_time(properties, H5D_FILL_TIME_NEVER), "set HDF5 properties");
-  checked(H5Pset_alloc_time(properties, H5D_ALLOC_TIME_EARLY), "set HDF5 properties");
-  return properties;
-}
-
 /// @param alone by the plain driver
 Hdf5Properties file_access(const comm::Communicator& comm, bool alone) {
   constexpr hsize_t large = hsize_t{16} << 20, alignment = hsize_t{1} << 20;
@@ -122,7 +113,8 @@ void SlabFile::agree_on(hid_t code, const std::string& action) const {
 
 /// The room is taken before MPI-IO comes to see the file. Rank 0 makes it, empty: to make it together would be to write
 /// its first bytes together, on a disk that may be full.
-SlabFile::SlabFile(const comm::Communicator& comm, std::string path, std::int64_t bytes)
+SlabFile::SlabFile(const comm::Communicator& comm, std::string path, std::int64_t bytes,
+                   const std::function<void(const FileStart&)>& start)
     : comm_(comm), path_(std::move(path)), write_back_(path_) {
   const bool alone = comm_.size() == 1;
   if (!alone)
@@ -139,11 +131,16 @@ SlabFile::SlabFile(const comm::Communicator& comm, std::string path, std::int64_
     checked(H5Pset_obj_track_times(creation, false), "set HDF5 properties");
     const Hdf5Properties plain = file_access(comm_, true);
     Hdf5File made(H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, creation, plain), "create " + path_);
-    if (alone)
+    if (bytes > 0) // first, so that a message says how much room is missing
+      reserve_space(path_, bytes);
+    if (start)
+      start(FileStart(made, path_));
+    if (alone) {
       file_ = std::move(made);
-    else
-      checked(made.close(), "create " + path_);
-    if (bytes > 0)
+      return;
+    }
+    checked(made.close(), "create " + path_);
+    if (bytes > 0) // closing has given the room back
       reserve_space(path_, bytes);
   });
   if (alone)
@@ -160,8 +157,7 @@ void SlabFile::group(const std::string& path) {
   Hdf5Properties creation;
   std::string making;
   agreed([&] {
-    creation = Hdf5Properties(H5Pcreate(H5P_GROUP_CREATE), "make HDF5 properties");
-    checked(H5Pset_obj_track_times(creation, false), "set HDF5 properties");
+    creation = group_properties();
     making = action("make", path);
   });
   const Hdf5Group made(H5Gcreate2(file_, path.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT));
@@ -174,63 +170,18 @@ void SlabFile::hard_link(const std::string& existing, const std::string& path) {
   agree_on(H5Lcreate_hard(file_, existing.c_str(), file_, path.c_str(), H5P_DEFAULT, H5P_DEFAULT), linking);
 }
 
-template <class Make>
-void SlabFile::write_attribute(const std::string& object, const std::string& name, const Make& make) {
+void SlabFile::attribute(const std::string& object, const Attribute& attribute) {
   SmallValues values;
   std::string making, writing;
   agreed([&] {
-    values = make();
-    making = action("make", "the attribute " + name);
-    writing = action("write", "the attribute " + name);
+    values = attribute_value(attribute);
+    making = action("make", "the attribute " + attribute.name);
+    writing = action("write", "the attribute " + attribute.name);
   });
-  const Hdf5Attribute attribute(H5Acreate_by_name(file_, object.c_str(), name.c_str(), values.type, values.space,
-                                                  H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
-  agree_on(attribute, making);
-  agree_on(H5Awrite(attribute, values.type, values.bytes.data()), writing);
-}
-
-void SlabFile::attribute(const std::string& object, const Attribute& attribute) {
-  write_attribute(object, attribute.name, [&] { return attribute_value(attribute); });
-}
-
-void SlabFile::attribute(const std::string& object, const std::string& name, std::span<const std::int64_t> values) {
-  write_attribute(object, name, [&] { return list_value(values); });
-}
-
-void SlabFile::ascii_attribute(const std::string& object, const std::string& name, const std::string& text) {
-  write_attribute(object, name, [&] { return text_value(text, H5T_CSET_ASCII); });
-}
-
-/// Rank 0 alone writes the data, because they are few. This is not a collective call.
-template <class Make>
-void SlabFile::small_dataset(const std::string& path, const Make& make) {
-  SmallValues values;
-  Hdf5Properties creation;
-  std::string making;
-  agreed([&] {
-    values = make();
-    creation = dataset_properties();
-    making = action("make", path);
-  });
-  const Hdf5Dataset dataset(
-      H5Dcreate2(file_, path.c_str(), values.type, values.space, H5P_DEFAULT, creation, H5P_DEFAULT));
-  agree_on(dataset, making);
-  agreed([&] {
-    if (!comm_.is_root() || H5Sget_simple_extent_npoints(values.space) == 0)
-      return;
-    const Hdf5Properties alone = transfer(comm_, false);
-    checked(H5Dwrite(dataset, values.type, H5S_ALL, H5S_ALL, alone, values.bytes.data()), action("write", path));
-  });
-}
-
-void SlabFile::column(const std::string& group, const Column& column) {
-  std::string path;
-  agreed([&] { path = group + "/" + column.name; });
-  small_dataset(path, [&] { return column_values(column); });
-}
-
-void SlabFile::text(const std::string& path, const std::string& text) {
-  small_dataset(path, [&] { return text_value(text, H5T_CSET_UTF8); });
+  const Hdf5Attribute made(H5Acreate_by_name(file_, object.c_str(), attribute.name.c_str(), values.type, values.space,
+                                             H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+  agree_on(made, making);
+  agree_on(H5Awrite(made, values.type, values.bytes.data()), writing);
 }
 
 void SlabFile::slab(SlabArray array) {

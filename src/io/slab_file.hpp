@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // An HDF5 file that all ranks write together. Each rank writes a contiguous range of rows (slab) of each large array,
-// in slices. Attributes, columns and texts are small and the same on every rank. After each step the ranks agree on
-// errors, so that all of them throw together and no rank is left waiting.
+// in slices. Before, rank 0 alone writes what is small. After each step the ranks agree on errors, so that all of them
+// throw together and no rank is left waiting.
 #pragma once
 
+#include "io/file_start.hpp"
 #include "io/hdf5_handle.hpp"
 #include "io/slice_buffer.hpp"
 #include "io/write_back.hpp"
@@ -43,18 +44,15 @@ public:
   /// @param bytes the final size of the file, which is reserved on the file system before anything is written, if
   /// possible. Otherwise the disk might become full during a collective write: Open MPI reports that to some of the
   /// ranks only, and the other ranks wait without end
-  SlabFile(const comm::Communicator& comm, std::string path, std::int64_t bytes = 0);
+  /// @param start what rank 0 puts into the file before the other ranks open it; may be empty
+  SlabFile(const comm::Communicator& comm, std::string path, std::int64_t bytes = 0,
+           const std::function<void(const FileStart&)>& start = {});
 
   void group(const std::string& path);
   void hard_link(const std::string& existing, const std::string& path);
   /// Writes an attribute of `object`, which is the path of a group or dataset. A text longer than longest_attribute is
   /// shortened.
   void attribute(const std::string& object, const Attribute& attribute);
-  void attribute(const std::string& object, const std::string& name, std::span<const std::int64_t> values);
-  /// Writes an ASCII text without terminator, in exactly its length, as readers of VTKHDF require.
-  void ascii_attribute(const std::string& object, const std::string& name, const std::string& text);
-  void column(const std::string& group, const Column& column);
-  void text(const std::string& path, const std::string& text);
   /// Writes an array. Keeps the dataset open, and a copy of the array's description, for verify().
   void slab(SlabArray array);
   /// Writes more rows of an array that slab() has made, with the same number of rows over all ranks.
@@ -74,10 +72,6 @@ private:
   void agreed_after(const Work& collective) const;
   void agree_on(hid_t code, const std::string& action) const;
 
-  template <class Make>
-  void write_attribute(const std::string& object, const std::string& name, const Make& make);
-  template <class Make>
-  void small_dataset(const std::string& path, const Make& make);
   void make_room(hid_t dataset, const SlabArray& array);
   struct Written {
     SlabArray array;

@@ -55,19 +55,8 @@ std::int64_t file_bytes(const Metadata& metadata, const std::vector<StateArray>&
 
 void write_hdf5(const std::string& path, const Metadata& metadata, const std::vector<StateArray>& arrays,
                 const comm::Communicator& comm) {
-  SlabFile file(comm, path, file_bytes(metadata, arrays));
-  file.group(root_group);
-  for (const Attribute& attribute : metadata.attributes)
-    file.attribute(root_group, attribute);
-  for (const Text& text : metadata.texts)
-    file.text(inside(text.name), text.text);
-  for (const MetadataGroup& group : metadata.groups) {
-    file.group(inside(group.name));
-    for (const Attribute& attribute : group.attributes)
-      file.attribute(inside(group.name), attribute);
-    for (const Column& column : group.columns)
-      file.column(inside(group.name), column);
-  }
+  SlabFile file(comm, path, file_bytes(metadata, arrays),
+                [&](const FileStart& start) { start.metadata(root_group, metadata); });
   for (const StateArray& array : arrays)
     file.slab({inside(array.path), of(array.kind).type, of(array.kind).bytes, static_cast<hsize_t>(array.columns),
                array.slab, array.rows, array.fill});

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/xdmf.hpp"
 
+#include "io/id_bytes.hpp"
+
 #include <fmt/format.h>
 
 #include <array>
@@ -49,23 +51,31 @@ std::string attribute(const XdmfContent& content, const Field& field) {
 constexpr const char* header = "<?xml version=\"1.0\"?>\n<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" []>\n"
                                "<Xdmf Version=\"3.0\"><Domain>";
 
+struct Cells {
+  const char* type;
+  int corners;
+  std::int64_t count;
+  const char* group;
+  int id_bytes;
+};
+
 /// Corners of cells of a type, and the points.
-std::string topology(const XdmfContent& content, const std::string& type, int corners, std::int64_t cells,
-                     const char* group) {
+std::string topology(const XdmfContent& content, const Cells& cells) {
   return fmt::format(
       " <Topology TopologyType=\"{4}\" NumberOfElements=\"{1}\" NodesPerElement=\"{3}\">\n"
-      "  <DataItem Dimensions=\"{1} {3}\" NumberType=\"Int\" Precision=\"8\" Format=\"HDF\">{2}:/Mesh/{5}/topology"
+      "  <DataItem Dimensions=\"{1} {3}\" NumberType=\"Int\" Precision=\"{6}\" Format=\"HDF\">{2}:/Mesh/{5}/topology"
       "</DataItem></Topology>\n"
       " <Geometry GeometryType=\"XY\">\n"
       "  <DataItem Dimensions=\"{0} 2\" NumberType=\"Float\" Precision=\"8\" Format=\"HDF\">{2}:/Mesh/mesh/geometry"
       "</DataItem></Geometry>\n",
-      content.points, cells, escaped(content.file), corners, type, group);
+      content.points, cells.count, escaped(content.file), cells.corners, cells.type, cells.group, cells.id_bytes);
 }
 
 /// A grid of one file; `extra` follows its start.
 std::string grid(const XdmfContent& content, const std::string& extra) {
-  std::string text = fmt::format("<Grid Name=\"mesh\" GridType=\"Uniform\">\n{}{}", extra,
-                                 topology(content, "Triangle", 3, content.triangles, "mesh"));
+  std::string text =
+      fmt::format("<Grid Name=\"mesh\" GridType=\"Uniform\">\n{}{}", extra,
+                  topology(content, {"Triangle", 3, content.triangles, "mesh", id_bytes(content.triangles)}));
   std::array fields{Field{"alpha", "Cell", "Float", 4}, Field{"beta", "Cell", "Float", 4},
                     Field{"region", "Cell", "Int", 4},  Field{"boundary", "Node", "Int", 4},
                     Field{"size", "Node", "Float", 4},  Field{"fixed", "Node", "UChar", 1}};
@@ -95,7 +105,7 @@ std::string xdmf_facets_text(const XdmfContent& content) {
                      " <Attribute Name=\"labels\" AttributeType=\"Scalar\" Center=\"Cell\">\n"
                      "  <DataItem Dimensions=\"{}\" NumberType=\"Int\" Precision=\"4\" Format=\"HDF\">"
                      "{}:/Mesh/{}/labels</DataItem></Attribute>\n</Grid></Domain></Xdmf>\n",
-                     header, topology(content, "Polyline", 2, content.lines, group), content.lines,
+                     header, topology(content, {"Polyline", 2, content.lines, group, 8}), content.lines,
                      escaped(content.file), group);
 }
 

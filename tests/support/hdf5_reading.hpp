@@ -12,9 +12,10 @@
 
 namespace trime::test {
 
-/// Reads one dataset on one rank, and also returns its shape and its type in the file.
+/// Reads one dataset on one rank, and also checks its shape, its type in the file and its layout.
 template <class T>
-std::vector<T> read(hid_t file, const char* path, hid_t type, const std::vector<hsize_t>& shape) {
+std::vector<T> read(hid_t file, const char* path, hid_t type, const std::vector<hsize_t>& shape,
+                    H5D_layout_t layout = H5D_CONTIGUOUS) {
   const io::Hdf5Dataset dataset(H5Dopen2(file, path, H5P_DEFAULT), path);
   const io::Hdf5Space space(H5Dget_space(dataset), "space");
   std::vector<hsize_t> found(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space)));
@@ -23,7 +24,7 @@ std::vector<T> read(hid_t file, const char* path, hid_t type, const std::vector<
   const io::Hdf5Type stored(H5Dget_type(dataset), "type");
   EXPECT_GT(H5Tequal(stored, type), 0) << path;
   const io::Hdf5Properties creation(H5Dget_create_plist(dataset), "properties");
-  EXPECT_EQ(H5Pget_layout(creation), H5D_CONTIGUOUS) << path;
+  EXPECT_EQ(H5Pget_layout(creation), layout) << path;
   H5O_info_t info;
   EXPECT_GE(H5Oget_info2(dataset, &info, H5O_INFO_TIME), 0);
   EXPECT_EQ(info.mtime, 0) << path << " keeps the time of its making";
@@ -32,6 +33,12 @@ std::vector<T> read(hid_t file, const char* path, hid_t type, const std::vector<
     EXPECT_GE(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), 0) << path;
   }
   return values;
+}
+
+/// Returns the bytes that the values of a dataset take in the file.
+inline std::int64_t stored_bytes(hid_t file, const char* path) {
+  const io::Hdf5Dataset dataset(H5Dopen2(file, path, H5P_DEFAULT), path);
+  return static_cast<std::int64_t>(H5Dget_storage_size(dataset));
 }
 
 template <class T, class F>

@@ -27,6 +27,11 @@ def check(*arguments):
     return done.returncode, done.stdout + done.stderr
 
 
+def stored_hash(path):
+    with h5py.File(path, "r") as file:
+        return int(file["trime_mpi"].attrs["mesh_hash"])
+
+
 def check_damaged(whole, path, damage):
     """Code and text of a check of a copy of the file, at `path`, that was damaged."""
     shutil.copy(whole, path)
@@ -56,9 +61,10 @@ def mesh_hash(file):
 def seal(file):
     """The views and the hash follow the arrays, so that other checks must find what is wrong."""
     xy, ids = file[GEOMETRY][:], file[TOPOLOGY][:]
-    file["VTKHDF/Points"][:, :2] = xy
     file["geometry/vertices"][:] = xy
-    file["VTKHDF/Connectivity"][:] = ids.ravel()
+    for name, values in (("Points", np.pad(xy, ((0, 0), (0, 1)))), ("Connectivity", ids.ravel())):
+        if not file["VTKHDF"][name].is_virtual:  # a virtual one shows the arrays
+            file["VTKHDF"][name][:] = values
     file["trime_mpi"].attrs.modify("mesh_hash", mesh_hash(file))
     file["trime_mpi"].attrs.modify("mesh_hash_hex", np.bytes_(f"{int(mesh_hash(file)):016x}"))
 
@@ -82,7 +88,10 @@ def replace(file, name, values):
 def change(file, name, index, value):
     values = file[name][:]
     values[index] = value
-    file[name][:] = values
+    if file[name].is_virtual:  # or the array behind it would change, too
+        replace(file, name, values)
+    else:
+        file[name][:] = values
 
 
 def move(file, point, share):
@@ -308,6 +317,29 @@ class Check(unittest.TestCase):
             seal(file)
         code, text = check(path)
         self.assertEqual(code, 0, text)
+
+    def test_files_of_earlier_versions_are_read(self):
+        """They have stored points and int64 vertices in both views."""
+        new, old = self.mesh("spade_fixed_points"), self.work / "earlier.h5"
+        shutil.copy(new, old)
+        with h5py.File(old, "r+") as file:
+            for name in (TOPOLOGY, "VTKHDF/Connectivity", "VTKHDF/Offsets"):
+                about = dict(file[name].attrs)
+                replace(file, name, file[name][:].astype(np.int64))
+                file[name].attrs.update(about)
+            replace(file, "VTKHDF/Points", file["VTKHDF/Points"][:])
+            del file["viz/topology/cells"]
+            file["viz/topology/cells"] = file[TOPOLOGY]
+        code, text = check(old)
+        self.assertEqual(code, 0, text)
+        for command, ending, content in (("convert", "msh", pathlib.Path.read_bytes), ("refine", "h5", stored_hash)):
+            made = []
+            for source in (old, new):
+                target = source.with_suffix(f".{command}.{ending}")
+                done = run(command, source, target)
+                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+                made.append(content(target))
+            self.assertEqual(*made)
 
     def test_the_shape_of_another_config(self):
         code, text = check(self.mesh("square"), ROOT / "configs" / "triangle.ini")

@@ -25,15 +25,16 @@ N, M, B = "points", "triangles", "facets"
 DATASETS = {
     "VTKHDF/NumberOfPoints": ("int64", (1,)), "VTKHDF/NumberOfCells": ("int64", (1,)),
     "VTKHDF/NumberOfConnectivityIds": ("int64", (1,)), "VTKHDF/Points": ("float64", (N, 3)),
-    "VTKHDF/Connectivity": ("int64", ("3M",)), "VTKHDF/Offsets": ("int64", ("M+1",)), "VTKHDF/Types": ("uint8", (M,)),
+    "VTKHDF/Connectivity": ("int32", ("3M",)), "VTKHDF/Offsets": ("int32", ("M+1",)), "VTKHDF/Types": ("uint8", (M,)),
     "VTKHDF/CellData/alpha": ("float32", (M,)), "VTKHDF/CellData/beta": ("float32", (M,)),
     "VTKHDF/CellData/region": ("int32", (M,)), "VTKHDF/PointData/boundary": ("int32", (N,)),
     "VTKHDF/PointData/size": ("float32", (N,)), "VTKHDF/PointData/fixed": ("uint8", (N,)),
-    "Mesh/mesh/geometry": ("float64", (N, 2)), "Mesh/mesh/topology": ("int64", (M, 3)),
+    "Mesh/mesh/geometry": ("float64", (N, 2)), "Mesh/mesh/topology": ("int32", (M, 3)),
     "Mesh/facets/topology": ("int64", (B, 2)), "Mesh/facets/values": ("int32", (B,)),
     "Mesh/facets/parts": ("int32", (B,)), "Mesh/facets/labels": ("int32", (B,)),
     "Mesh/facets/asked_size": ("float32", (B,)),
 }
+VIRTUAL = ["VTKHDF/Points", "VTKHDF/Connectivity"]  # show arrays of /Mesh/mesh
 ATTRIBUTES = ["format", "format_version", "program_version", "git_commit", "build_type", "compiler", "mpi_library",
               "hdf5_library", "created_utc", "command_line", "host", "seed", "mpi_ranks", "omp_threads", "stop_reason",
               "mesh_hash", "complete"]
@@ -87,6 +88,9 @@ class FileContract(unittest.TestCase):
                 self.assertEqual(self.file[path].dtype, np.dtype(kind))
                 self.assertEqual(self.file[path].shape, tuple(sizes.get(length, length) for length in shape))
                 self.assertIsNone(self.file[path].chunks, "contiguous storage")
+                self.assertEqual(self.file[path].is_virtual, path in VIRTUAL)
+                stored = 0 if path in VIRTUAL else self.file[path].nbytes
+                self.assertEqual(self.file[path].id.get_storage_size(), stored)
 
     def test_header_of_vtkhdf(self):
         group = self.file["VTKHDF"]

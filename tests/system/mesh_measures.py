@@ -77,7 +77,8 @@ class MeshMeasures:
     """All measures of a mesh, from its arrays and the rings of its input."""
 
     def __init__(self, points, triangles, size, rings):
-        self.points, self.triangles, self.size, self.rings = points, triangles, size.astype(float), rings
+        self.points, self.size, self.rings = points, size.astype(float), rings
+        self.triangles = triangles.astype(np.int64)  # products of ids need 64 bits, and the file has 32
         self.corners = points[triangles]
         self.alpha, self.angle = qualities(self.corners)
         self.area = float(0.5 * cross(self.corners[:, 1] - self.corners[:, 0],

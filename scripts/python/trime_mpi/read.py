@@ -323,6 +323,13 @@ def mapped(dataset):
     return np.memmap(dataset.file.filename, dataset.dtype, "c", offset, dataset.shape).view(np.ndarray)
 
 
+def ids_in(dataset, take):
+    """Returns numbers of points: in memory as int64, so that products of them do not overflow, and in place in the type
+    that the file has."""
+    values = take(dataset)
+    return values.astype(np.int64, copy=False) if take is loaded else values
+
+
 # Arrays of /Mesh, by member.
 INNER_EDGES = {"curves": {"curve_edges": "topology", "curve_numbers": "values"},
                "interfaces": {"interface_edges": "topology", "interface_regions": "regions",
@@ -334,9 +341,10 @@ def read_open(file, path, take):
     """Returns the mesh of an open file. take: returns the values of a dataset."""
     about = file["trime_mpi"]
     if "Mesh/mesh" in file:
-        points, triangles = take(file["Mesh/mesh/geometry"]), take(file["Mesh/mesh/topology"])
+        points, triangles = take(file["Mesh/mesh/geometry"]), ids_in(file["Mesh/mesh/topology"], take)
     else:  # written for ParaView only
-        points, triangles = take(file["VTKHDF/Points"])[:, :2], take(file["VTKHDF/Connectivity"]).reshape(-1, 3)
+        points = take(file["VTKHDF/Points"])[:, :2]
+        triangles = ids_in(file["VTKHDF/Connectivity"], take).reshape(-1, 3)
     fields = file["VTKHDF" if "VTKHDF/PointData" in file else "Mesh"]
     cells, nodes, facets = fields["CellData"], fields["PointData"], file["Mesh/facets"]
     tables, inner = read_tables(about), {}
@@ -357,7 +365,8 @@ def read_open(file, path, take):
 def read(file, in_place=False):
     """Reads the mesh in a file NAME.h5 (or NAME.vtkhdf) of trime_mpi. The arrays take about 100 bytes per point.
 
-    in_place: the arrays stay in the file, and are read when they are used. Nothing may write to the file meanwhile. A
+    in_place: the arrays stay in the file, and are read when they are used; triangles are int32 if the file has them so,
+    otherwise they are int64. Nothing may write to the file meanwhile. A
     run that makes the mesh again does no harm, since it makes a new file of the same name.
 
     Raises FileError if the file does not exist, or if it is not a mesh of trime_mpi.

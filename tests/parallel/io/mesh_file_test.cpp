@@ -113,11 +113,11 @@ void expect_vtkhdf(hid_t file) {
   EXPECT_EQ(read<std::int64_t>(file, "/VTKHDF/NumberOfPoints", i64, {1})[0], n_points);
   EXPECT_EQ(read<std::int64_t>(file, "/VTKHDF/NumberOfCells", i64, {1})[0], n_triangles);
   EXPECT_EQ(read<std::int64_t>(file, "/VTKHDF/NumberOfConnectivityIds", i64, {1})[0], 3 * n_triangles);
-  expect_values(read<double>(file, "/VTKHDF/Points", H5T_NATIVE_DOUBLE, {n_points, 3}), 3 * n_points,
+  expect_values(read<double>(file, "/VTKHDF/Points", H5T_NATIVE_DOUBLE, {n_points, 3}, H5D_VIRTUAL), 3 * n_points,
                 [](std::int64_t i) { return i % 3 == 2 ? 0 : coordinate(i / 3, static_cast<int>(i % 3)); });
-  expect_values(read<std::int64_t>(file, "/VTKHDF/Connectivity", i64, {3 * n_triangles}), 3 * n_triangles,
+  expect_values(read<std::int32_t>(file, "/VTKHDF/Connectivity", i32, {3 * n_triangles}, H5D_VIRTUAL), 3 * n_triangles,
                 [](std::int64_t i) { return vertex(i / 3, static_cast<int>(i % 3)); });
-  expect_values(read<std::int64_t>(file, "/VTKHDF/Offsets", i64, {n_triangles + 1}), n_triangles + 1,
+  expect_values(read<std::int32_t>(file, "/VTKHDF/Offsets", i32, {n_triangles + 1}), n_triangles + 1,
                 [](std::int64_t i) { return 3 * i; });
   expect_values(read<std::uint8_t>(file, "/VTKHDF/Types", H5T_NATIVE_UINT8, {n_triangles}), n_triangles,
                 [](std::int64_t) { return 5; });
@@ -141,7 +141,7 @@ void expect_plain_mesh(hid_t file) {
     expect_values(read<double>(file, path, H5T_NATIVE_DOUBLE, {n_points, 2}), 2 * n_points,
                   [](std::int64_t i) { return coordinate(i / 2, static_cast<int>(i % 2)); });
   for (const char* path : {"/Mesh/mesh/topology", "/viz/topology/cells"}) {
-    expect_values(read<std::int64_t>(file, path, i64, {n_triangles, 3}), 3 * n_triangles,
+    expect_values(read<std::int32_t>(file, path, H5T_NATIVE_INT32, {n_triangles, 3}), 3 * n_triangles,
                   [](std::int64_t i) { return vertex(i / 3, static_cast<int>(i % 3)); });
     for (const auto& [name, expected] : {std::pair("cell_dim", 2), std::pair("cell_corners", 3)}) {
       const Hdf5Attribute attribute(H5Aopen_by_name(file, path, name, H5P_DEFAULT, H5P_DEFAULT), name);
@@ -206,6 +206,8 @@ TEST(MeshFile, KeepsItsContractOnAnyDistribution) {
     expect_vtkhdf(file);
     expect_plain_mesh(file);
     expect_metadata(file);
+    for (const char* shown : {"/VTKHDF/Points", "/VTKHDF/Connectivity"})
+      EXPECT_EQ(test::stored_bytes(file, shown), 0) << shown;
     for (const char* absent : {"/Mesh/curves", "/Mesh/interfaces", "/Mesh/lines", "/Mesh/splits"})
       EXPECT_FALSE(H5Lexists(file, absent, H5P_DEFAULT) > 0) << absent;
     EXPECT_NE(content(options.path(".xmf")).find("/Mesh/facets/topology<"), std::string::npos);
@@ -338,6 +340,11 @@ TEST(MeshFile, WritesOnlyTheViewsThatAreWanted) {
     EXPECT_EQ(H5Lexists(file, "/Mesh/mesh", H5P_DEFAULT) > 0, !vtkhdf);
     EXPECT_GT(H5Lexists(file, "/Mesh/facets", H5P_DEFAULT), 0);
     EXPECT_EQ(H5Lexists(file, "/Mesh/CellData", H5P_DEFAULT) > 0, !vtkhdf);
+    if (!vtkhdf)
+      continue;
+    for (const auto& [path, bytes] :
+         {std::pair("/VTKHDF/Points", 24 * n_points), {"/VTKHDF/Connectivity", 12 * n_triangles}})
+      EXPECT_EQ(test::stored_bytes(file, path), bytes) << path << " has no array that it could show";
   }
 }
 

@@ -143,17 +143,59 @@ TEST(SlabFile, TheEndsOfSlabsAreReadOnceMore) {
   }
 }
 
+TEST(SlabFile, AFailureAtTheStartStopsAllRanks) {
+  const comm::Communicator comm = comm::Communicator::world();
+  const test::TemporaryDirectory directory(comm);
+  const auto start = [](const FileStart&) { throw FileError("rank 0 cannot begin"); };
+  EXPECT_THROW(SlabFile(comm, directory.path() + "/a.h5", 0, start), FileError);
+}
+
+TEST(SlabFile, VirtualArraysShowOthersInAnotherShape) {
+  const comm::Communicator comm = comm::Communicator::world();
+  const test::TemporaryDirectory directory(comm);
+  const std::int64_t total = many_rows * comm.size();
+  const auto rows = static_cast<hsize_t>(total);
+  {
+    SlabFile file(comm, directory.path() + "/a.h5", 0, [rows](const FileStart& start) {
+      start.show({"/one_row", H5T_NATIVE_UINT8, {2 * rows, 0}, "/pairs", {rows, 2}});
+      start.show({"/wide", H5T_NATIVE_DOUBLE, {rows, 3}, "/pairs", {rows, 2}});
+    });
+    SlabArray pairs = counting("/pairs", {many_rows * comm.rank(), total}, many_rows);
+    pairs.columns = 2;
+    pairs.fill = [first_here = pairs.slab.first](std::int64_t first, std::int64_t count, std::byte* out) {
+      for (std::int64_t k = 0; k < 2 * count; ++k)
+        out[k] = static_cast<std::byte>(row_value(2 * (first_here + first) + k));
+    };
+    file.slab(std::move(pairs));
+    file.verify();
+    file.close();
+  }
+  comm.barrier();
+  const Hdf5File file(H5Fopen((directory.path() + "/a.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "open");
+  expect_values(read<std::uint8_t>(file, "/one_row", H5T_NATIVE_UINT8, {2 * rows}, H5D_VIRTUAL), 2 * total, row_value);
+  expect_values(read<double>(file, "/wide", H5T_NATIVE_DOUBLE, {rows, 3}, H5D_VIRTUAL), 3 * total,
+                [](std::int64_t i) { return i % 3 == 2 ? 0 : row_value(2 * (i / 3) + i % 3); });
+  for (const char* shown : {"/one_row", "/wide"})
+    EXPECT_EQ(test::stored_bytes(file, shown), 0) << shown;
+  comm.barrier();
+}
+
 TEST(SlabFile, NamesThatAreTakenAreRefusedOnAllRanks) {
   const comm::Communicator comm = comm::Communicator::world();
   const test::TemporaryDirectory directory(comm);
-  SlabFile file(comm, directory.path() + "/a.h5");
-  file.group("/g");
-  file.attribute("/g", {"a", std::int64_t{1}});
-  file.text("/g/t", "text");
+  const auto start = [](const FileStart& begun) {
+    begun.group("/g");
+    begun.attribute("/g", {"a", std::int64_t{1}});
+    begun.text("/g/t", "text");
+    EXPECT_THROW(begun.group("/g"), FileError);
+    EXPECT_THROW(begun.attribute("/g", {"a", std::int64_t{1}}), FileError);
+    EXPECT_THROW(begun.text("/g/t", "text"), FileError);
+    EXPECT_THROW(begun.column("/g", {"t", std::vector<double>{1}}), FileError);
+    EXPECT_THROW(begun.show({"/g/t", H5T_NATIVE_INT32, {3, 0}, "/s", {3, 0}}), FileError);
+  };
+  SlabFile file(comm, directory.path() + "/a.h5", 0, start);
   EXPECT_THROW(file.group("/g"), FileError);
   EXPECT_THROW(file.attribute("/g", {"a", std::int64_t{1}}), FileError);
-  EXPECT_THROW(file.text("/g/t", "text"), FileError);
-  EXPECT_THROW(file.column("/g", {"t", std::vector<double>{1}}), FileError);
   EXPECT_THROW(file.slab(counting("/g/t", {comm.rank(), comm.size()}, 1)), FileError);
   EXPECT_THROW(file.hard_link("/nothing", "/h"), FileError);
   file.verify();
