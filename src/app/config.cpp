@@ -396,6 +396,9 @@ void read_output(const Settings& settings, RunOptions& options, Diagnostics& pro
     if (const std::string problem = formats::cells_problem(format, options.output.names.cells); !problem.empty())
       problems.add(settings.line("output", "cells"), "'cells' in [output]: " + problem);
   options.output.names.in_degrees = settings.text("output", "coordinates") == "degrees";
+  for (const std::string& word : split_words(settings.text("output", "accept")))
+    if (const std::optional<acceptance::Solver> solver = acceptance::solver_of_word(word))
+      options.accept.push_back(*solver);
   options.courant.time_step = settings.optional_number("output", "time_step").value_or(0);
   options.courant.limit = settings.number("output", "courant");
   if (options.courant.time_step > 0 && settings.text("output", "depth") == "none")
