@@ -293,6 +293,7 @@ void read_meshing(const Settings& settings, const geometry::Box& container, mesh
   mesh.seed = static_cast<std::uint64_t>(settings.integer("meshing", "seed"));
   mesh.max_sweeps = static_cast<int>(settings.integer("meshing", "max_sweeps"));
   mesh.cleanup = settings.boolean("meshing", "cleanup");
+  mesh.split_ears = settings.boolean("meshing", "split_ears");
   // No keys: tools for those who change the sweeps.
   mesh.star_tests = {std::getenv("TRIME_VERIFY_STARS") != nullptr, std::getenv("TRIME_STARS_BY_EMPTINESS") != nullptr,
                      std::getenv("TRIME_SLEEPLESS") != nullptr};

@@ -448,6 +448,13 @@ const Option table[] = {
                 "`at X Y`: the one that holds this place, in the coordinates of the contour files. A warning says how "
                 "many components are left out"},
     {.section = "meshing",
+     .key = "split_ears",
+     .kind = OptionKind::boolean,
+     .fallback = "false",
+     .meaning =
+         "true: the clean-up divides triangles with two boundary edges, which some models of coasts do not like, "
+         "where the corner of the shape has 60 degrees or more"},
+    {.section = "meshing",
      .key = "max_loss",
      .fallback = "none",
      .choices = "none",

@@ -210,6 +210,35 @@ class CoastFormats(WorkspaceCase):
         self.assertEqual(first["worst"][row("adcirc", "triangles_at_point")], np.bincount(triangles.ravel()).max())
         self.assertEqual(check(self.directory / "bay.h5")[0], 0)
 
+    def test_triangles_with_two_boundary_edges_are_split(self):
+        """In corners of 60 degrees and more; the corner at (2, 0) has less and keeps its one. The same on all ranks."""
+        def kite(degrees):
+            half = np.radians(degrees / 2)
+            self.write("kite.xy", [(0, 0), (np.cos(half), -np.sin(half)), (2, 0), (np.cos(half), np.sin(half))])
+
+        def ears(split, ranks=1):
+            (self.directory / "kite.ini").write_text(
+                f"[shape]\ngeometry = kite\n[shape.kite]\ntype = contour\nfile = kite.xy\n[meshing]\n"
+                f"edge_length = 0.05\nsplit_ears = {split}\n[output]\naccept = fvcom\noverwrite = true\n"
+                f"directory = {self.directory}\n")
+            done = run(self.directory / "kite.ini", ranks=ranks)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            with h5py.File(self.directory / "kite.h5") as file:
+                group = file["trime_mpi/accept"]
+                rules = dict(zip(group["rule"].asstr()[:], zip(group["broken"][:], group["worst"][:])))
+                return (rules["boundary_edges"][0], rules["least_angle"][1], file["trime_mpi"].attrs["mesh_hash"])
+
+        for degrees in (64, 70, 78):
+            kite(degrees)
+            self.assertEqual(ears("false")[0], 2)
+            found = ears("true")
+            self.assertEqual(found[0], 1, degrees)
+            self.assertGreater(found[1], 30)
+        for ranks in (2, 3):
+            self.assertEqual(ears("true", ranks), found)
+        kite(50)
+        self.assertEqual(ears("true"), ears("false"))
+
     def test_a_rule_that_makes_a_model_refuse_the_mesh_marks_it(self):
         """SCHISM stops at an outer boundary that is open all along."""
         done, table = self.accepted(2, "output.accept=schism", "output.open_boundary=open sea, coast")
