@@ -211,7 +211,7 @@ class CoastFormats(WorkspaceCase):
         self.assertEqual(check(self.directory / "bay.h5")[0], 0)
 
     def test_triangles_with_two_boundary_edges_are_split(self):
-        """In corners of 60 degrees and more; the corner at (2, 0) has less and keeps its one. The same on all ranks."""
+        """In corners of 60 degrees and more; the corner at (2, 0) has less and keeps its one. All ranks agree."""
         def kite(degrees):
             half = np.radians(degrees / 2)
             self.write("kite.xy", [(0, 0), (np.cos(half), -np.sin(half)), (2, 0), (np.cos(half), np.sin(half))])
