@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
+#include <numeric>
 #include <optional>
 
 namespace trime::acceptance {
@@ -91,7 +93,10 @@ public:
   /// @param marks of all local points, see Measure::boundary_marks
   Judge(const LocalMesh& mesh, const geometry::Periods& periods, std::span<const double> marks,
         std::vector<Tally>& tallies)
-      : mesh_(mesh), periods_(periods), marks_(marks), tallies_(tallies) {}
+      : mesh_(mesh), periods_(periods), marks_(marks) {
+    for (Tally& tally : tallies)
+      of_measure_[static_cast<std::size_t>(tally.rule.measure)].push_back(&tally);
+  }
 
   void triangles() const;
   void points() const;
@@ -106,15 +111,13 @@ private:
       return {p, mesh_.points[at(b)], mesh_.points[at(c)]};
     return {p, periods_.nearest_image(mesh_.points[at(b)], p), periods_.nearest_image(mesh_.points[at(c)], p)};
   }
-  bool wants(std::initializer_list<Measure> measures) const {
-    return std::ranges::any_of(tallies_, [&](const Tally& tally) {
-      return std::ranges::find(measures, tally.rule.measure) != measures.end();
-    });
+  bool wants(std::initializer_list<Measure> some) const {
+    return std::ranges::any_of(
+        some, [&](Measure measure) { return !of_measure_[static_cast<std::size_t>(measure)].empty(); });
   }
   void add(Measure measure, double value, GlobalId number, Vec2 where) const {
-    for (Tally& tally : tallies_)
-      if (tally.rule.measure == measure)
-        tally.add(value, number, where);
+    for (Tally* tally : of_measure_[static_cast<std::size_t>(measure)])
+      tally->add(value, number, where);
   }
   std::vector<Side> sorted_sides() const;
   void add_pair(const Side& one, const Side& other) const;
@@ -122,7 +125,7 @@ private:
   const LocalMesh& mesh_;
   const geometry::Periods periods_;
   const std::span<const double> marks_;
-  std::vector<Tally>& tallies_;
+  std::array<std::vector<Tally*>, measures> of_measure_; // the rules of each measure
 };
 
 void Judge::triangles() const {
@@ -133,8 +136,10 @@ void Judge::triangles() const {
     const Corners p = corners(t);
     const GlobalId number = mesh_.triangle_ids[at(t)];
     const Vec2 middle = middle_of(p);
-    add(Measure::least_angle, mesh::min_angle_degrees(p[0], p[1], p[2]), number, middle);
-    add(Measure::largest_angle, mesh::max_angle_degrees(p[0], p[1], p[2]), number, middle);
+    if (wants({Measure::least_angle}))
+      add(Measure::least_angle, mesh::min_angle_degrees(p[0], p[1], p[2]), number, middle);
+    if (wants({Measure::largest_angle}))
+      add(Measure::largest_angle, mesh::max_angle_degrees(p[0], p[1], p[2]), number, middle);
     add(Measure::skewness, skewness_of(p), number, middle);
     add(Measure::boundary_edges, edges[at(t)], number, middle);
     double marks = 0, marked = 0;
@@ -165,21 +170,28 @@ void Judge::points() const {
   }
 }
 
-/// Both triangles of a side that ends at an owned point are local, so each side counts on one rank.
+/// Both triangles of a side that ends at an owned point are local, so each side counts on one rank. Sides are sorted by
+/// their ends.
 std::vector<Side> Judge::sorted_sides() const {
-  std::vector<Side> sides;
-  sides.reserve(2 * mesh_.triangles.size());
-  for (LocalIndex t = 0; t < static_cast<LocalIndex>(mesh_.triangles.size()); ++t)
-    for (int k = 0; k < 3; ++k) {
-      const auto& corners = mesh_.triangles[at(t)];
-      const LocalIndex a = corners[at(k)], b = corners[at((k + 1) % 3)];
-      const bool a_is_low = mesh_.global_id(a) < mesh_.global_id(b);
-      if ((a_is_low ? a : b) < mesh_.owned_points)
-        sides.push_back({mesh_.global_id(a_is_low ? a : b), mesh_.global_id(a_is_low ? b : a), t, k});
-    }
-  std::ranges::sort(sides, {}, [&](const Side& side) {
-    return std::array{side.low, side.high, mesh_.triangle_ids[at(side.triangle)]};
-  });
+  std::vector<std::size_t> first(at(mesh_.owned_points) + 1, 0); // by lower end
+  const auto for_each = [&](const auto& visit) {
+    for (LocalIndex t = 0; t < static_cast<LocalIndex>(mesh_.triangles.size()); ++t)
+      for (int k = 0; k < 3; ++k) {
+        const LocalIndex a = mesh_.triangles[at(t)][at(k)], b = mesh_.triangles[at(t)][at((k + 1) % 3)];
+        const bool a_is_low = mesh_.global_id(a) < mesh_.global_id(b);
+        if (const LocalIndex low = a_is_low ? a : b; low < mesh_.owned_points)
+          visit(at(low), Side{mesh_.global_id(low), mesh_.global_id(a_is_low ? b : a), t, k});
+      }
+  };
+  for_each([&](std::size_t low, const Side&) { ++first[low + 1]; });
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<Side> sides(first.back());
+  std::vector<std::size_t> next(first.begin(), first.end() - 1);
+  for_each([&](std::size_t low, const Side& side) { sides[next[low]++] = side; });
+  for (std::size_t low = 0; low + 1 < first.size(); ++low)
+    std::sort(sides.begin() + static_cast<std::ptrdiff_t>(first[low]),
+              sides.begin() + static_cast<std::ptrdiff_t>(first[low + 1]),
+              [](const Side& one, const Side& other) { return one.high < other.high; });
   return sides;
 }
 
@@ -203,9 +215,12 @@ void Judge::sides() const {
   if (!wants({Measure::area_share, Measure::link_cosine, Measure::link_length}))
     return;
   const std::vector<Side> sides = sorted_sides();
-  for (std::size_t k = 0; k + 1 < sides.size(); ++k)
-    if (sides[k].low == sides[k + 1].low && sides[k].high == sides[k + 1].high)
-      add_pair(sides[k], sides[k + 1]);
+  for (std::size_t k = 0; k + 1 < sides.size(); ++k) {
+    const Side &one = sides[k], &other = sides[k + 1];
+    const bool is_first = mesh_.triangle_ids[at(one.triangle)] < mesh_.triangle_ids[at(other.triangle)];
+    if (one.low == other.low && one.high == other.high)
+      add_pair(is_first ? one : other, is_first ? other : one);
+  }
 }
 
 /// Returns the marks of all local points, see Measure::boundary_marks. Collective.

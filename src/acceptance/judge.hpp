@@ -39,7 +39,7 @@ struct BoundaryFacts {
 
 /// @brief Measures the mesh by all rules of the solvers. The result has the same bits on any number of ranks.
 /// @param solvers a solver that is named twice counts once
-/// @note Collective. Cost: O(n log n) for n points on a rank, with the exchanges of make_local_mesh(), the ghosts'
+/// @note Collective. Cost: O(n) for n points on a rank, with the exchanges of make_local_mesh(), the ghosts'
 /// values once, and three small reductions. Memory: 24 bytes for each side of a triangle, and a LocalMesh.
 std::vector<Verdict> judge(const mesh::DistributedMesh& mesh, std::span<const Solver> solvers,
                            const BoundaryFacts& boundary, const comm::Communicator& comm);

@@ -95,7 +95,7 @@ const char* solver_words() {
 }
 
 std::string_view name_of(Measure measure) {
-  constexpr std::array<std::string_view, 14> names{
+  constexpr std::array<std::string_view, measures> names{
       "least_angle",    "largest_angle",      "skewness",   "boundary_edges",      "boundary_corners",
       "boundary_marks", "triangles_at_point", "cell_edges", "boundary_paths",      "area_share",
       "link_cosine",    "link_length",        "components", "looped_open_boundary"};
