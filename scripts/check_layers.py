@@ -47,11 +47,12 @@ ARROWS = {
     "formats": ["comm", "geometry", "mesh", "dual", "projection", "io"],
     "handover": ["comm", "geometry", "mesh"],
     "dual": ["comm", "geometry", "mesh", "handover"],
+    "acceptance": ["comm", "geometry", "mesh", "handover"],
     "facade": ["comm", "geometry", "contours", "tracing", "shape", "sizing", "boundary", "sweep", "mesh", "meshing",
                "io", "record", "formats", "handover", "dual"],
     "python": ["comm", "geometry", "sizing", "dual", "facade"],
     "app": ["comm", "geometry", "contours", "tracing", "shape", "projection", "fields", "sizing", "polygon", "boundary",
-            "sites", "fitting", "meshing", "refinement", "io", "checkpoint", "record", "formats"],
+            "sites", "fitting", "meshing", "refinement", "io", "checkpoint", "record", "formats", "acceptance"],
 }
 # Foreign headers that only some modules may see, as (pattern, name, modules).
 UMBRELLA = "facade"  # its headers include include/trime/trime.hpp, which lies in no folder

@@ -293,6 +293,7 @@ void read_meshing(const Settings& settings, const geometry::Box& container, mesh
   mesh.seed = static_cast<std::uint64_t>(settings.integer("meshing", "seed"));
   mesh.max_sweeps = static_cast<int>(settings.integer("meshing", "max_sweeps"));
   mesh.cleanup = settings.boolean("meshing", "cleanup");
+  mesh.split_ears = settings.boolean("meshing", "split_ears");
   // No keys: tools for those who change the sweeps.
   mesh.star_tests = {std::getenv("TRIME_VERIFY_STARS") != nullptr, std::getenv("TRIME_STARS_BY_EMPTINESS") != nullptr,
                      std::getenv("TRIME_SLEEPLESS") != nullptr};
@@ -396,6 +397,9 @@ void read_output(const Settings& settings, RunOptions& options, Diagnostics& pro
     if (const std::string problem = formats::cells_problem(format, options.output.names.cells); !problem.empty())
       problems.add(settings.line("output", "cells"), "'cells' in [output]: " + problem);
   options.output.names.in_degrees = settings.text("output", "coordinates") == "degrees";
+  for (const std::string& word : split_words(settings.text("output", "accept")))
+    if (const std::optional<acceptance::Solver> solver = acceptance::solver_of_word(word))
+      options.accept.push_back(*solver);
   options.courant.time_step = settings.optional_number("output", "time_step").value_or(0);
   options.courant.limit = settings.number("output", "courant");
   if (options.courant.time_step > 0 && settings.text("output", "depth") == "none")

@@ -27,6 +27,7 @@ std::vector<FieldOptions> read_fields(const Settings& settings, const std::files
     field.fill_value = settings.number(section, "fill");
     field.outside_is_nearest = settings.text(section, "outside") == "nearest";
     field.coordinates = settings.text(section, "coordinates");
+    field.smooth = settings.optional_number(section, "smooth").value_or(0);
   }
   return fields;
 }
@@ -54,6 +55,14 @@ FormulaText read_formula(const Settings& settings, const std::string& section, c
   return formula;
 }
 
+/// Reads the sections [size.NAME].
+void read_more_sizes(const Settings& settings, RunOptions& options, FieldNames& used, Diagnostics& problems) {
+  for (const std::string& name : settings.sizes())
+    if (const std::string section = "size." + name; settings.is_set(section, "expression"))
+      options.sizing.more.push_back({name, read_formula(settings, section, "expression", used, problems)});
+  options.sizing.uses_data = !used.empty();
+}
+
 /// Reads the formula of the size, if the type of the size wants one.
 void read_size(const Settings& settings, RunOptions& options, FieldNames& used, Diagnostics& problems) {
   if (settings.was_refused("sizing", "type") || settings.text("sizing", "type") != "expression")
@@ -64,7 +73,6 @@ void read_size(const Settings& settings, RunOptions& options, FieldNames& used, 
     return;
   }
   options.sizing.expression = read_formula(settings, "sizing", "expression", used, problems);
-  options.sizing.uses_data = !used.empty();
 }
 
 } // namespace
@@ -73,6 +81,7 @@ void read_formulas(const Settings& settings, const std::filesystem::path& direct
                    Diagnostics& problems) {
   FieldNames used;
   read_size(settings, options, used, problems);
+  read_more_sizes(settings, options, used, problems);
   if (settings.text("output", "depth") != "none")
     options.depth = read_formula(settings, "output", "depth", used, problems);
   for (FieldOptions& field : read_fields(settings, directory))
@@ -80,7 +89,7 @@ void read_formulas(const Settings& settings, const std::filesystem::path& direct
       options.fields.push_back(std::move(field));
     else // probably a mistake
       options.warnings.push_back(fmt::format(
-          "[field.{}] has no effect: neither 'expression' in [sizing] nor 'depth' in [output] uses it", field.name));
+          "[field.{}] has no effect: no formula of a size that counts uses it, nor 'depth' in [output]", field.name));
 }
 
 } // namespace trime::app

@@ -52,6 +52,8 @@ void read_gradation(const Settings& settings, RunOptions& options, Diagnostics& 
   }
   if (growth && *growth == 0) // the automatic size is uniform
     growth.reset();
+  if (!growth && settings.text("sizing", "gradation") == "auto" && !options.sizing.more.empty())
+    growth = sizing::SizingRules::function_gradation;
   const auto is_sized = [](const RegionOptions& region) { return region.size.has_value() || region.area_limits; };
   if (!growth && settings.text("sizing", "gradation") == "auto" && std::ranges::any_of(options.regions, is_sized))
     growth = sizing::SizingRules::function_gradation;
@@ -62,8 +64,8 @@ void read_scale(const Settings& settings, RunOptions& options, Diagnostics& prob
   const std::string scale = settings.text("sizing", "scale");
   options.scale_is_automatic = scale == "auto";
   options.mesh.absolute_sizes = scale == "absolute" || (scale == "auto" && options.sizing.uses_data);
-  if (options.mesh.absolute_sizes && options.sizing.type == "uniform" && !options.mesh.max_size &&
-      !settings.is_set("sizing", "max_size"))
+  if (options.mesh.absolute_sizes && options.sizing.type == "uniform" && options.sizing.more.empty() &&
+      !options.mesh.max_size && !settings.is_set("sizing", "max_size"))
     problems.add(settings.line("sizing", "scale"),
                  "'scale = absolute' in [sizing] with 'type = uniform' needs 'max_size', the length of the edges, for "
                  "example 'max_size = 2000'");

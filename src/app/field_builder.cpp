@@ -84,6 +84,8 @@ std::vector<BuiltField> read_fields(const RunOptions& options, const ShapeInput&
     const bool in_degrees = is_in_degrees(one, is_projected, request, comm);
     BuiltField field{one.name, nullptr, [](Vec2 p) { return p; }, in_degrees && is_projected};
     request.period = in_degrees ? 360 : 0;
+    request.smooth = one.smooth;
+    request.per_degree = field.in_metres ? metres_per_degree : 0;
     if (field.in_metres && !degrees)
       comm::run_agreed(comm, [&] { degrees = std::make_shared<const projection::DegreesOfPlane>(input.map.crs); });
     if (field.in_metres)
@@ -119,14 +121,14 @@ std::string hashes_of(const std::vector<BuiltField>& fields) {
 std::size_t bytes_of(const std::vector<BuiltField>& fields) {
   std::size_t bytes = 0;
   for (const BuiltField& field : fields)
-    bytes += field.field->raster().bytes();
+    bytes += field.field->bytes();
   return bytes;
 }
 
 std::string description_of(const BuiltField& field) {
   const fields::Raster& raster = field.field->raster();
   return fmt::format("{} x {} values around the shape, {:.3g} MB on each rank{}", raster.x.count, raster.y.count,
-                     static_cast<double>(raster.bytes()) / 1e6,
+                     static_cast<double>(field.field->bytes()) / 1e6,
                      raster.filled.empty() ? "" : "; some are filled with the nearest value");
 }
 

@@ -26,6 +26,12 @@ const char* format_words() {
   return words.c_str();
 }
 
+/// The words of all models with rules, and that for no model.
+const char* accept_words() {
+  static const std::string words = std::string("none ") + acceptance::solver_words();
+  return words.c_str();
+}
+
 const Option table[] = {
     {.section = "domain",
      .key = "x_min",
@@ -289,6 +295,15 @@ const Option table[] = {
          "coordinates of the raster: `degrees`: longitude and latitude; `plane`: those of the mesh; auto: degrees "
          "if the contours are projected and the raster lies within 360 and 90"},
 
+    {.section = "field.NAME",
+     .key = "smooth",
+     .fallback = "none",
+     .choices = "none",
+     .range = positive,
+     .meaning =
+         "length over which the data are averaged before `grad(NAME)` takes their slope, in the unit of the mesh: "
+         "shorter waves are removed; none: the slope of the data as they are"},
+
     {.section = "sizing",
      .key = "type",
      .kind = OptionKind::word,
@@ -354,6 +369,13 @@ const Option table[] = {
      .meaning = "how the points move: `distmesh`: by repulsive forces along the edges; `cvt`: to the centroids of "
                 "their Voronoi cells (centroidal Voronoi tessellation; `cvd` means the same); `hybrid`: by both, and "
                 "finally towards equilateral triangles"},
+    {.section = "size.NAME",
+     .key = "expression",
+     .kind = OptionKind::text,
+     .meaning =
+         "one more size, as a formula like `expression` in [sizing]; at each place the smallest one of all sizes "
+         "counts. With `type = uniform` only the sections [size.NAME] count"},
+
     {.section = "meshing",
      .key = "points",
      .kind = OptionKind::integer,
@@ -425,6 +447,13 @@ const Option table[] = {
      .meaning = "which components of the simplified shape are meshed: `all`; `largest`: the one with the largest area; "
                 "`at X Y`: the one that holds this place, in the coordinates of the contour files. A warning says how "
                 "many components are left out"},
+    {.section = "meshing",
+     .key = "split_ears",
+     .kind = OptionKind::boolean,
+     .fallback = "false",
+     .meaning =
+         "true: the clean-up divides triangles with two boundary edges, which some models of coasts do not like, "
+         "where the corner of the shape has 60 degrees or more"},
     {.section = "meshing",
      .key = "max_loss",
      .fallback = "none",
@@ -561,6 +590,13 @@ const Option table[] = {
          "depth at the points for coastal models, positive downwards, as a formula of x, y and data of "
          "[field.NAME], such as `-elevation`; none: the files of `fort14`, `gr3`, `slf` and `2dm` have the depth 0"},
     {.section = "output",
+     .key = "accept",
+     .kind = OptionKind::words,
+     .fallback = "none",
+     .choices = accept_words(),
+     .meaning = "models that will use the mesh, separated by blanks: the mesh is measured by their rules, such as the "
+                "least angle. A rule that makes the model refuse the mesh is a check, any other one gives a warning"},
+    {.section = "output",
      .key = "time_step",
      .fallback = "none",
      .choices = "none",
@@ -634,6 +670,7 @@ std::string_view table_section(std::string_view section) {
          : section.starts_with("region.") ? region_section
          : section.starts_with("curve.")  ? curve_section
          : section.starts_with("field.")  ? field_section
+         : section.starts_with("size.")   ? size_section
                                           : section;
 }
 

@@ -21,8 +21,8 @@ struct Range {
 
 /// One key of a config. A list of words is separated by blanks.
 struct Option {
-  const char*
-      section; ///< section of the key; "shape.NAME", "region.NAME", "curve.NAME" or "field.NAME" for keys of those
+  const char* section; ///< section of the key; "shape.NAME", "region.NAME", "curve.NAME", "field.NAME" or "size.NAME"
+                       ///< for keys of those
   const char* key;
   const char* part_type = ""; ///< for keys of parts: the type of part that has the key; empty: all types
   OptionKind kind = OptionKind::number;
@@ -40,6 +40,7 @@ inline constexpr std::string_view part_section = "shape.NAME";
 inline constexpr std::string_view region_section = "region.NAME";
 inline constexpr std::string_view curve_section = "curve.NAME";
 inline constexpr std::string_view field_section = "field.NAME";
+inline constexpr std::string_view size_section = "size.NAME";
 
 std::span<const Option> option_table();
 

@@ -3,6 +3,7 @@
 // file after it was read and checked.
 #pragma once
 
+#include "acceptance/solver_rules.hpp"
 #include "formats/mesh_series.hpp"
 #include "record/courant.hpp"
 #include "sizing/boundary_distance.hpp"
@@ -67,6 +68,12 @@ struct FormulaText {
   std::string place; ///< its origin for messages: "config.ini:17: 'expression' in [sizing]"
 };
 
+/// One section [size.NAME] of a config.
+struct NamedFormula {
+  std::string name;
+  FormulaText formula;
+};
+
 /// One section [field.NAME] of a config.
 struct FieldOptions {
   std::string name;
@@ -77,6 +84,7 @@ struct FieldOptions {
   double fill_value = 0;
   bool outside_is_nearest = false;
   std::string coordinates; ///< auto, degrees or plane
+  double smooth = 0;       ///< length over which gradients are smoothed; 0: they are not
 };
 
 /// The section [sizing] of a config. The absolute bounds of the size are in meshing::MeshOptions.
@@ -84,7 +92,8 @@ struct SizingOptions {
   std::string type = "uniform";           ///< uniform, automatic or expression
   double gradation = 0.1;                 ///< K of the type automatic; 0 makes the size uniform
   FormulaText expression;                 ///< formula of the size, if the type is expression
-  bool uses_data = false;                 ///< whether the formula uses a field
+  std::vector<NamedFormula> more;         ///< the sections [size.NAME]; the smallest size of all counts
+  bool uses_data = false;                 ///< whether a formula uses a field
   std::vector<sizing::NamedSize> size_at; ///< lengths on parts of the boundary
   std::string size_at_place;              ///< origin of `size_at` for messages
 };
@@ -122,13 +131,14 @@ struct RunOptions {
   std::string start_file;           ///< mesh file whose points are the start; empty: none
   std::vector<FieldOptions> fields; ///< data that a formula uses
   SizingOptions sizing;
-  FormulaText depth;               ///< formula of the depth at points; empty if none is asked for
-  record::CourantOptions courant;  ///< time step of the model that will use the mesh
-  bool scale_is_automatic = false; ///< true if the user does not say whether sizes are lengths
-  int setup_threads = 0;           ///< threads per rank while shape and size field are made; 0: chosen from the machine
-  int mesh_threads = 0;            ///< threads per rank during meshing; 0: chosen from the machine
-  formats::SeriesOptions output;   ///< options of the output, without the names of the parts, which the shape knows
-  bool write = true;               ///< false if no file is written
+  FormulaText depth;                      ///< formula of the depth at points; empty if none is asked for
+  std::vector<acceptance::Solver> accept; ///< models whose rules the mesh is measured by
+  record::CourantOptions courant;         ///< time step of the model that will use the mesh
+  bool scale_is_automatic = false;        ///< true if the user does not say whether sizes are lengths
+  int setup_threads = 0;         ///< threads per rank while shape and size field are made; 0: chosen from the machine
+  int mesh_threads = 0;          ///< threads per rank during meshing; 0: chosen from the machine
+  formats::SeriesOptions output; ///< options of the output, without the names of the parts, which the shape knows
+  bool write = true;             ///< false if no file is written
   CheckpointOptions checkpoint;
   LogLevel log_level = LogLevel::summary;
   int log_interval = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/program.hpp"
 
+#include "app/acceptance_report.hpp"
 #include "app/checkpoint_keeper.hpp"
 #include "app/command_line.hpp"
 #include "app/config.hpp"
@@ -305,6 +306,7 @@ private:
                         const Measurements& measured) const;
   io::WrittenFiles publish(const Provenance& provenance, const meshing::MeshResult& result, const SizeSummary& sizes);
   void add_depths(meshing::MeshResult& result);
+  void judge(meshing::MeshResult& result);
   void print_results(const RunFacts& facts) const;
 
   const Job& job_;
@@ -320,6 +322,7 @@ private:
   std::optional<DistanceFormula> depth_;          // of the points, if the config asks for depths
   double points_ = 0;                             // about as many as the mesh will have
   std::optional<record::CourantSummary> courant_; // of the final mesh, if the config has a time step
+  std::vector<acceptance::Verdict> verdicts_;     // on the final mesh, by the rules of models
 };
 
 void MeshRun::check_output() {
@@ -376,11 +379,23 @@ void MeshRun::add_depths(meshing::MeshResult& result) {
     courant_ = record::courant_numbers(job_.options.courant, result.mesh, job_.comm);
 }
 
+/// Measures the mesh by the rules of the models that the config names.
+void MeshRun::judge(meshing::MeshResult& result) {
+  if (job_.options.accept.empty())
+    return;
+  const auto timing = job_.timers.scope("accept");
+  verdicts_ = judge_mesh(
+      {job_.options.accept, input_.domain().frame().periods(), formats::open_parts(series_options(job_, input_).names)},
+      result, job_.comm);
+}
+
 io::Metadata MeshRun::describe(const Provenance& provenance, const meshing::MeshResult& result,
                                const SizeSummary& sizes, const Measurements& measured) const {
   io::Metadata metadata = describe_run(provenance, result, sizes, measured);
   if (courant_)
     metadata.groups.push_back(record::group_of(*courant_));
+  if (!verdicts_.empty())
+    metadata.groups.push_back(accept_group(verdicts_));
   return metadata;
 }
 
@@ -403,6 +418,7 @@ void MeshRun::print_results(const RunFacts& facts) const {
                        formats::open_boundary_text(series_options(job_, input_).names, facts.part_edges));
   if (courant_)
     job_.log.summary("{}", record::text_of(*courant_));
+  print_verdicts(verdicts_, job_.log);
   print_cells(series_.cells(), job_.log);
   if (!is_complete(facts.result))
     job_.log.warning("{}", incompleteness(facts.result, job_.options.write));
@@ -431,7 +447,10 @@ ExitCode MeshRun::run() {
                                input_.domain().curves().kinds}};
   meshing::MeshResult result = make_mesh(provenance);
   add_depths(result);
-  const SizeSummary sizes = summarize_size(size_.description, result.mesh, job_.comm);
+  judge(result);
+  const std::string shares = shares_of_sizes(size_, result.mesh, job_.comm);
+  const SizeSummary sizes = summarize_size(
+      shares.empty() ? size_.description : fmt::format("{}: {}", size_.description, shares), result.mesh, job_.comm);
   keeper_.go_to_the_end();
   const io::WrittenFiles files = job_.options.write ? publish(provenance, result, sizes) : io::WrittenFiles{};
   const Measurements measured = gather_measurements(job_.timers, job_.comm);

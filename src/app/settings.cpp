@@ -51,9 +51,11 @@ Settings::Settings(const IniDocument& document, Diagnostics& problems) {
   for (const std::string& part : parts())
     check_part("shape." + part, problems);
   for (const std::string& curve : curves())
-    check_file("curve." + curve, problems);
+    check_given("curve." + curve, "file", problems);
   for (const std::string& field : fields())
-    check_file("field." + field, problems);
+    check_given("field." + field, "file", problems);
+  for (const std::string& size : sizes())
+    check_given("size." + size, "expression", problems);
 }
 
 /// The kind of named section to which a section belongs; null if it belongs to none.
@@ -104,16 +106,16 @@ void Settings::check_name(const IniSection& section, Diagnostics& problems) {
     problems.add(section.line, fmt::format("'{}' cannot name a field, because formulas use this word; choose another "
                                            "name",
                                            shown(name)));
-  else if (&kind != &named_[regions_at] && &kind != &named_[fields_at] && (is_other(parts_at) || is_other(curves_at)))
+  else if ((&kind == &named_[parts_at] || &kind == &named_[curves_at]) && (is_other(parts_at) || is_other(curves_at)))
     problems.add(section.line, fmt::format("'{}' names a part and a curve: expected different names", shown(name)));
   else if (kind.known.insert(name).second)
     kind.names.push_back(name);
 }
 
-void Settings::check_file(const std::string& section, Diagnostics& problems) {
-  if (!is_set(section, "file"))
+void Settings::check_given(const std::string& section, const std::string& key, Diagnostics& problems) {
+  if (!is_set(section, key))
     problems.add(section_line(section),
-                 fmt::format("[{}] needs 'file': {}", shown(section), expectation(*find_option(section, "file"))));
+                 fmt::format("[{}] needs '{}': {}", shown(section), key, expectation(*find_option(section, key))));
 }
 
 void Settings::check_entry(const IniEntry& entry, Diagnostics& problems) {

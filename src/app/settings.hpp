@@ -33,6 +33,8 @@ public:
   const std::vector<std::string>& curves() const { return named_[curves_at].names; }
   /// Returns the names of the sections [field.NAME] in the order of the file.
   const std::vector<std::string>& fields() const { return named_[fields_at].names; }
+  /// Returns the names of the sections [size.NAME] in the order of the file.
+  const std::vector<std::string>& sizes() const { return named_[sizes_at].names; }
   /// Returns the line of the section in the file.
   int section_line(const std::string& section) const;
 
@@ -69,23 +71,24 @@ private:
     std::vector<std::string> names{};
     std::set<std::string> known{}; ///< the names, for searching
   };
-  static constexpr std::size_t parts_at = 0, regions_at = 1, curves_at = 2, fields_at = 3;
+  static constexpr std::size_t parts_at = 0, regions_at = 1, curves_at = 2, fields_at = 3, sizes_at = 4;
 
   const NamedSections* named(std::string_view section) const;
   void check_sections(const IniDocument& document, Diagnostics& problems);
   void check_entry(const IniEntry& entry, Diagnostics& problems);
   void check_part(const std::string& section, Diagnostics& problems);
-  void check_file(const std::string& section, Diagnostics& problems);
+  void check_given(const std::string& section, const std::string& key, Diagnostics& problems);
   void check_name(const IniSection& section, Diagnostics& problems);
   bool is_known_section(const std::string& section) const;
   void keep(const IniEntry& entry);
 
   std::map<std::string, int> section_lines_; ///< line in which each section begins first
   std::map<IniKey, int> lines_;              ///< line of each entry of the document
-  std::array<NamedSections, 4> named_{{{"shape.", part_section, "part"},
+  std::array<NamedSections, 5> named_{{{"shape.", part_section, "part"},
                                        {"region.", region_section, "region"},
                                        {"curve.", curve_section, "curve"},
-                                       {"field.", field_section, "field"}}};
+                                       {"field.", field_section, "field"},
+                                       {"size.", size_section, "size"}}};
   std::map<IniKey, std::string> good_;               ///< all allowed values that the user has set
   std::map<std::string, std::vector<IniEntry>> own_; ///< all allowed values by section, in the order of the file
   std::set<IniKey> meant_;                           ///< known keys that are most similar to misspelt sections and keys

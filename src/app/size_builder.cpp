@@ -33,7 +33,7 @@ BuiltSize automatic_size(const RunOptions& options, const geometry::Domain& doma
 }
 
 /// A formula of a periodic container must have its periods: compares both ends of some lines across it.
-void check_periods(const DistanceFormula& formula, const RunOptions& options, const geometry::Frame& frame) {
+void check_periods(const DistanceFormula& formula, const geometry::Frame& frame) {
   constexpr int lines = 64;
   constexpr double same = 1e-6; // relative
   const geometry::Box& box = frame.container();
@@ -45,8 +45,7 @@ void check_periods(const DistanceFormula& formula, const RunOptions& options, co
       throw ConfigError(fmt::format("{}: expected the same size on both sides of the periodic "
                                     "container, found {:.6g} at {} and {:.6g} at {} for '{}'; use "
                                     "a formula with the period of the container",
-                                    options.sizing.expression.place, at_p, Place(p, 6), at_q, Place(q, 6),
-                                    options.sizing.expression.text));
+                                    formula.where(), at_p, Place(p, 6), at_q, Place(q, 6), formula.text()));
   };
   for (int k = 0; k < lines; ++k) {
     const double share = (k + 0.5) / lines;
@@ -57,17 +56,50 @@ void check_periods(const DistanceFormula& formula, const RunOptions& options, co
   }
 }
 
-BuiltSize expression_size(const RunOptions& options, const geometry::Domain& domain,
-                          const std::vector<BuiltField>& fields) {
-  const SizingOptions& sizing = options.sizing;
+/// Makes the size of a formula, which `size` owns.
+std::unique_ptr<const sizing::SizeField> formula_size(const FormulaText& text, const geometry::Domain& domain,
+                                                      const std::vector<BuiltField>& fields, BuiltSize& size) {
   const geometry::Box box =
       domain.frame().periods().any() ? domain.frame().container() : domain.boundary().bounding_box();
+  size.formulas.push_back(std::make_unique<const DistanceFormula>(build_formula(text, domain, fields)));
+  const DistanceFormula& formula = *size.formulas.back();
+  auto field = std::make_unique<const sizing::DistanceSize>(formula, box);
+  check_periods(formula, domain.frame());
+  return field;
+}
+
+BuiltSize expression_size(const RunOptions& options, const geometry::Domain& domain,
+                          const std::vector<BuiltField>& fields) {
   BuiltSize size;
-  size.formula = std::make_unique<const DistanceFormula>(build_formula(sizing.expression, domain, fields));
-  size.field = std::make_unique<const sizing::DistanceSize>(*size.formula, box);
-  size.description = "expression " + sizing.expression.text;
-  check_periods(*size.formula, options, domain.frame());
+  size.field = formula_size(options.sizing.expression, domain, fields, size);
+  size.description = "expression " + options.sizing.expression.text;
   return size;
+}
+
+/// The smallest one of the size so far and of the sections [size.NAME]. A uniform size has no say: `max_size` bounds
+/// all of them.
+void lower_by_sections(const RunOptions& options, const geometry::Domain& domain, const std::vector<BuiltField>& fields,
+                       BuiltSize& size) {
+  const std::vector<NamedFormula>& more = options.sizing.more;
+  if (more.empty())
+    return;
+  std::vector<const sizing::SizeField*> smallest;
+  if (options.sizing.type != "uniform") {
+    size.names.push_back("sizing");
+    size.bases.push_back(std::move(size.field));
+    smallest.push_back(size.bases.back().get());
+  }
+  size.description = smallest.empty() ? "" : size.description + ", ";
+  for (const NamedFormula& one : more) {
+    size.names.push_back("size." + one.name);
+    size.bases.push_back(formula_size(one.formula, domain, fields, size));
+    smallest.push_back(size.bases.back().get());
+    size.description += fmt::format("{}{} = {}", &one == &more.front() ? "" : ", ", one.name, one.formula.text);
+  }
+  size.description = "the smallest of " + size.description;
+  auto minimum = std::make_unique<const sizing::MinimumSize>(std::move(smallest));
+  size.minimum = minimum.get();
+  size.field = std::move(minimum);
 }
 
 /// Sizes in another unit than the coordinates, such as degrees in a plane of metres, may ask for an absurd number of
@@ -147,6 +179,21 @@ void lower_in_regions(const RunOptions& options, const geometry::Domain& domain,
 
 } // namespace
 
+std::string shares_of_sizes(const BuiltSize& size, const mesh::DistributedMesh& mesh, const comm::Communicator& comm) {
+  if (size.minimum == nullptr)
+    return {};
+  std::vector<std::int64_t> points(size.names.size(), 0);
+  for (const geometry::Vec2 point : mesh.points)
+    ++points[size.minimum->ruler(point)];
+  comm.sum(points);
+  std::string text;
+  for (std::size_t k = 0; k < points.size(); ++k)
+    text += fmt::format("{}[{}] {:.3g} %", text.empty() ? "" : ", ", size.names[k],
+                        100 * static_cast<double>(points[k]) /
+                            static_cast<double>(std::max<GlobalId>(1, mesh.point_slab.total)));
+  return text + " of the points";
+}
+
 DistanceFormula build_formula(const FormulaText& formula, const geometry::Domain& domain,
                               const std::vector<BuiltField>& fields) {
   return DistanceFormula(formula.text, formula.place, sizing::distances_in(domain), functions_of(fields));
@@ -165,6 +212,7 @@ BuiltSize build_size(const RunOptions& options, const geometry::Domain& domain, 
         options.mesh.absolute_sizes ? options.mesh.max_size.value_or(1) : 1.0);
     size.description = "uniform";
   }
+  lower_by_sections(options, domain, fields, size); // the same on all ranks, errors too
   lower_in_regions(options, domain, std::move(bounds), size);
   if (!options.sizing.size_at.empty())
     lower_at_boundary(options, domain, size);

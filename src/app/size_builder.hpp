@@ -5,6 +5,7 @@
 #include "app/field_builder.hpp"
 #include "app/options.hpp"
 #include "core/distance_formula.hpp"
+#include "sizing/minimum_size.hpp"
 #include "sizing/region_size.hpp"
 #include "trime/comm/communicator.hpp"
 #include "trime/geometry/boundary.hpp"
@@ -19,11 +20,18 @@ namespace trime::app {
 
 /// A size field together with the objects that it refers to. Move-only.
 struct BuiltSize {
-  std::unique_ptr<const DistanceFormula> formula;              ///< the formula, if the size is an expression
-  std::vector<std::unique_ptr<const sizing::SizeField>> bases; ///< sizes that `field` lowers in regions or on lines
+  std::vector<std::unique_ptr<const DistanceFormula>>
+      formulas; ///< the formulas of the size and of the sections [size.NAME]
+  std::vector<std::unique_ptr<const sizing::SizeField>> bases; ///< sizes that `field` lowers or is the smallest of
   std::unique_ptr<const sizing::SizeField> field;
+  const sizing::MinimumSize* minimum = nullptr; ///< the smallest one of several sizes, among the bases; null: one size
+  std::vector<std::string> names;               ///< the sections with these sizes
   std::string description; ///< text for the report, such as "automatic, gradation 0.1, features of 0.004 and more"
 };
+
+/// @brief Returns how many percent of the points have each of several sizes as the smallest one, such as "[sizing] 60
+/// %, [size.wave] 40 % of the points"; empty if there is one size. Collective. Cost: one evaluation per point and size.
+std::string shares_of_sizes(const BuiltSize& size, const mesh::DistributedMesh& mesh, const comm::Communicator& comm);
 
 /// Makes a formula that may use data, and distances to the boundary and its parts.
 /// @throws ConfigError that says what is wrong with a name; the same on all ranks

@@ -70,6 +70,11 @@ bool ConfigText::has(const std::string& section, const std::string& key) const {
   return found != values_.end() && !found->second.empty() && found->second != "none";
 }
 
+bool ConfigText::has_section(const std::string& beginning) const {
+  const auto found = values_.lower_bound({beginning, ""});
+  return found != values_.end() && found->first.first.starts_with(beginning);
+}
+
 std::optional<double> ConfigText::number(const std::string& section, const std::string& key) const {
   const std::vector<double> numbers = numbers_of(value(section, key));
   return numbers.empty() ? std::nullopt : std::optional(numbers[0]);

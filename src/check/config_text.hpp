@@ -28,6 +28,8 @@ public:
   std::string value(const std::string& section, const std::string& key) const;
   /// Returns whether the key has a value other than `none`; it may be `auto`.
   bool has(const std::string& section, const std::string& key) const;
+  /// Returns whether a section begins with this text, such as `size.`.
+  bool has_section(const std::string& beginning) const;
   std::optional<double> number(const std::string& section, const std::string& key) const;
   bool is_true(const std::string& section, const std::string& key) const { return value(section, key) == "true"; }
   /// @throws Failure (exit 2) if the value is missing or is not two numbers

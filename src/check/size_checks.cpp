@@ -39,11 +39,11 @@ struct Sizing {
   explicit Sizing(const StoredFile& file) {
     const ConfigText config(file.text("/trime_mpi/config_resolved"), "");
     const std::string type = config.value("sizing", "type");
-    is_expression = type == "expression";
+    is_expression = type == "expression" || config.has_section("size.");
     may_be_raised = config.number("sizing", "shortest_edge").has_value();
     const std::string size_at = config.value("sizing", "size_at");
     const bool in_regions = has_region_sizes(config);
-    if (type == "uniform" && (size_at.empty() || size_at == "none") && !in_regions)
+    if (type == "uniform" && !is_expression && (size_at.empty() || size_at == "none") && !in_regions)
       return;
     const double automatic = in_regions ? region_gradation : type == "uniform" ? boundary_gradation : default_gradation;
     gradation = config.number("sizing", "gradation").value_or(automatic);

@@ -40,27 +40,34 @@ bool is_surely_good(const mesh::BinnedPoints& points, LocalIndex site, const Fan
   return good;
 }
 
+/// Is the triangle of a site on the boundary to be divided, see Patch::is_ear?
+bool is_ear(const mesh::BinnedPoints& points, LocalIndex site, const Fan& fan) {
+  return !fan.closed && fan.triangles == 1 &&
+         is_wide_corner(points.position(site), points.position(fan.neighbour(0)), points.position(fan.neighbour(1)));
+}
+
 /// A site with the largest alpha in its fan if that is bad and finite, else 0. @pre the fan is complete
-Candidate candidate_at(const SiteState& state, LocalIndex site, const Fan& fan, double bad_alpha) {
+Candidate candidate_at(const SiteState& state, LocalIndex site, const Fan& fan, const CleanupOptions& options) {
   const mesh::BinnedPoints& points = state.points();
   const Vec2 p = points.position(site);
   Candidate candidate{p, state.sizes()[site]};
-  if (is_surely_good(points, site, fan))
+  const double more = options.split_ears && is_ear(points, site, fan) ? CleanupRules::ear_alpha : 0;
+  if (more == 0 && is_surely_good(points, site, fan))
     return candidate;
   for (std::size_t k = 0; k < fan.triangles; ++k) {
     const Vec2 q = points.position(fan.neighbour(k)), r = points.position(fan.neighbour(k + 1));
-    const double alpha = mesh::aspect_ratio(p, q, r);
+    const double alpha = more + mesh::aspect_ratio(p, q, r);
     candidate.alpha = std::max(candidate.alpha, alpha);
     candidate.obtuse = candidate.obtuse || (alpha > mesh::least_obtuse_alpha && mesh::is_obtuse(p, q, r));
   }
-  if (!(candidate.alpha > bad_alpha && std::isfinite(candidate.alpha)))
+  if (!(candidate.alpha > options.bad_alpha && std::isfinite(candidate.alpha)))
     candidate.alpha = 0;
   return candidate;
 }
 
 /// Finds the bad triangles of the owned sites, by stars that are computed here. Collective.
 std::vector<Candidate> find_candidates(Stage& stage, const geometry::Lattice& lattice,
-                                       const delaunay::StarBuilder& builder, double bad_alpha) {
+                                       const delaunay::StarBuilder& builder, const CleanupOptions& options) {
   SiteState& state = *stage.state;
   state.compute_stars(builder, *stage.size, Wanted::all_sites);
   const StageView view = stage.view(lattice);
@@ -71,7 +78,7 @@ std::vector<Candidate> find_candidates(Stage& stage, const geometry::Lattice& la
         const Fan fan = inside_fan(view, i);
         if (!state.stars().certain(i) || !fan.complete)
           return;
-        if (const Candidate candidate = candidate_at(state, i, fan, bad_alpha); candidate.alpha > 0)
+        if (const Candidate candidate = candidate_at(state, i, fan, options); candidate.alpha > 0)
           list.push_back(candidate);
       });
 }
@@ -80,7 +87,7 @@ std::vector<Candidate> find_candidates(Stage& stage, const geometry::Lattice& la
 
 CleanupCounts mend(Stage& stage, const geometry::Boundary& meshed, const geometry::Lattice& lattice,
                    const delaunay::StarBuilder& builder, const CleanupOptions& options) {
-  CleanupRounds rounds(stage, meshed, lattice, options, find_candidates(stage, lattice, builder, options.bad_alpha));
+  CleanupRounds rounds(stage, meshed, lattice, options, find_candidates(stage, lattice, builder, options));
   for (int k = 1; k <= CleanupRules::stages + CleanupRules::obtuse_stages; ++k)
     rounds.run_stage(k);
   const CleanupCounts all = rounds.counts();

@@ -40,8 +40,9 @@ CleanupRounds::CleanupRounds(const sites::Stage& stage, const geometry::Boundary
       boundary_(comm_, meshed, stage.polygon, stage.asked_size(), options.tolerance), sites_(*stage.state, boundary_),
       candidates_(stage.state->grid()), neighbours_(comm_), bad_alpha_(options.bad_alpha) {
   for (std::unique_ptr<PatchOptimizer>& optimizer : optimizers_)
-    optimizer = std::make_unique<PatchOptimizer>(stage.polygon, boundary_.curve(), lattice,
-                                                 PatchOptions{.bad_alpha = options.bad_alpha});
+    optimizer = std::make_unique<PatchOptimizer>(
+        stage.polygon, boundary_.curve(), lattice,
+        PatchOptions{.bad_alpha = options.bad_alpha, .ear_alpha = options.split_ears ? Rules::ear_alpha : 0});
   for (const Candidate& candidate : candidates)
     candidates_.set(candidate);
   meet_neighbours(list_contenders());

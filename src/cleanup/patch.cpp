@@ -68,7 +68,18 @@ bool Patch::is_behind_wall(Vec2 p, Vec2 q) const {
 }
 
 bool Patch::is_surely_below(double limit, const Corners& corners) const {
-  return mesh::is_surely_below(limit, mesh.position(corners[0]), mesh.position(corners[1]), mesh.position(corners[2]));
+  return mesh::is_surely_below(limit, mesh.position(corners[0]), mesh.position(corners[1]),
+                               mesh.position(corners[2])) &&
+         !(ear_alpha > 0 && is_ear(corners));
+}
+
+bool Patch::is_ear(const Corners& corners) const {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const LocalIndex before = corners[k], v = corners[(k + 1) % 3], after = corners[(k + 2) % 3];
+    if (is_chord(before, v) && is_chord(v, after))
+      return is_wide_corner(mesh.position(v), mesh.position(before), mesh.position(after));
+  }
+  return false;
 }
 
 bool Patch::is_obtuse(const Corners& corners) const {

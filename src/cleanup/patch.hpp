@@ -117,8 +117,13 @@ struct Patch {
   }
   /// See mesh::is_surely_below.
   bool is_surely_below(double limit, const Corners& corners) const;
-  /// Returns mesh::aspect_ratio, or infinity if the triangle has no area.
+  /// Returns mesh::aspect_ratio, or infinity if the triangle has no area. If ears are to be divided, they have more.
   double alpha(const Corners& corners) const {
+    return ear_alpha > 0 && is_ear(corners) ? ear_alpha + aspect_ratio(corners) : aspect_ratio(corners);
+  }
+  /// Returns whether a triangle has two boundary edges, with an angle of at least 60 degrees between them.
+  bool is_ear(const Corners& corners) const;
+  double aspect_ratio(const Corners& corners) const {
     const geometry::Vec2 p = mesh.position(corners[0]), u = mesh.position(corners[1]) - p,
                          v = mesh.position(corners[2]) - p;
     const double a = geometry::length(u), b = geometry::length(v), c = geometry::length(v - u);
@@ -145,7 +150,8 @@ struct Patch {
   std::vector<LocalIndex> rim;          ///< vertices on the boundary, including vertices that were removed
   std::vector<std::pair<LocalIndex, LocalIndex>> walls; ///< chords of curves inside the shape; the lower vertex first
   GlobalId gain = 0;                                    ///< number of sites added since the start
-  bool broken = false; ///< an operation of the triangulation failed: the patch can no longer be used
+  double ear_alpha = 0; ///< what ears add to their alpha, so that they are divided; 0: ears count like other triangles
+  bool broken = false;  ///< an operation of the triangulation failed: the patch can no longer be used
 
 private:
   bool has_inner_vertex(const PatchMesh::Triangle& triangle) const {
@@ -162,8 +168,10 @@ public:
   /// The arguments must outlive the object. @param boundary sites before the clean-up; only their loops and periods are
   /// used
   PatchStart(const polygon::BoundarySites& boundary, const polygon::BoundaryCurve& curve,
-             const geometry::Lattice& lattice)
-      : boundary_(boundary), curve_(curve), lattice_(lattice), patch_(lattice, boundary.periods) {}
+             const geometry::Lattice& lattice, double ear_alpha = 0)
+      : boundary_(boundary), curve_(curve), lattice_(lattice), patch_(lattice, boundary.periods) {
+    patch_.ear_alpha = ear_alpha;
+  }
 
   /// @brief Triangulates the sites. @return false if nothing can be changed, because there are too many sites or all
   /// lie near the rim of the patch

@@ -7,6 +7,7 @@
 #include "polygon/boundary_chain.hpp"
 #include "trime/geometry/vec2.hpp"
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -87,7 +88,15 @@ struct PatchOptions {
   double bad_alpha = CleanupRules::bad_alpha;
   double operate_alpha = CleanupRules::operate_alpha;
   double first_alpha = CleanupRules::first_alpha;
+  double ear_alpha = 0; ///< see Patch
 };
+
+/// Returns whether the angle at v between two other places is at least 60 degrees.
+inline bool is_wide_corner(geometry::Vec2 v, geometry::Vec2 a, geometry::Vec2 b) {
+  const geometry::Vec2 u = a - v, w = b - v;
+  return geometry::dot(u, w) <=
+         CleanupRules::ear_cosine * std::sqrt(geometry::squared_length(u) * geometry::squared_length(w));
+}
 
 /// Limits on how a patch may change the number of sites.
 struct PatchBudget {

@@ -143,9 +143,9 @@ public:
   /// See PatchStart.
   PatchOptimizer(const polygon::BoundarySites& boundary, const polygon::BoundaryCurve& curve,
                  const geometry::Lattice& lattice, const PatchOptions& options)
-      : options_(options), start_(boundary, curve, lattice), chords_(start_), mover_(start_, chords_),
-        worst_(start_, rests_), contest_(start_, chords_, mover_, options), report_(start_, rests_),
-        now_(start_.patch()), best_(start_.patch()) {}
+      : options_(options), start_(boundary, curve, lattice, options.ear_alpha), chords_(start_),
+        mover_(start_, chords_), worst_(start_, rests_), contest_(start_, chords_, mover_, options),
+        report_(start_, rests_), now_(start_.patch()), best_(start_.patch()) {}
   PatchOptimizer(const PatchOptimizer&) = delete; // members refer to each other
   PatchOptimizer& operator=(const PatchOptimizer&) = delete;
 

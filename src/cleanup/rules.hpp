@@ -30,6 +30,13 @@ struct CleanupRules {
   static constexpr double first_alpha = 1.35;
   /// [alpha] Places with a larger alpha are tried once more in each stage after the first.
   static constexpr double again_alpha = 1.15;
+  /// [alpha] What a triangle with two boundary edges adds to its alpha if it is to be divided. The two halves of a
+  /// corner of 60 degrees have an alpha of 1.30, so an equilateral triangle must count as much worse than that.
+  /// Not measured.
+  static constexpr double ear_alpha = 1;
+  /// [1] Cosine of the smallest corner whose triangle is divided: its halves have angles of 30 degrees, the least angle
+  /// that FVCOM accepts. Not measured.
+  static constexpr double ear_cosine = 0.5;
   /// [1] If the worst alpha of a mesh is below again_alpha, places are tried again if their excess over 1 is above this
   /// share of the worst excess. Measured: the largest alpha on the square fell from 1.0715 to 1.0699 with 1e5 points,
   /// from 1.081 to 1.073 with 5e5 points.

@@ -66,8 +66,8 @@ double among_given(const Raster& raster, const Corners& corners) {
 
 } // namespace
 
-Field::Field(Raster raster, double period, double middle)
-    : raster_(std::move(raster)), period_(period), middle_(middle) {}
+Field::Field(Raster raster, double period, double middle, std::optional<Raster> smooth)
+    : raster_(std::move(raster)), smooth_(std::move(smooth)), period_(period), middle_(middle) {}
 
 double Field::value(geometry::Vec2 p) const {
   if (period_ > 0)
@@ -83,7 +83,7 @@ double Field::value(geometry::Vec2 p) const {
 geometry::Vec2 Field::gradient(geometry::Vec2 p) const {
   if (period_ > 0)
     p.x += period_ * std::rint((middle_ - p.x) / period_);
-  const Corners corners = corners_of(raster_, p);
+  const Corners corners = corners_of(smooth_ ? *smooth_ : raster_, p);
   const std::array<double, 4>& z = corners.values;
   const auto is_between = [](const Axis& axis, double at) {
     return axis.index(at) >= 0 && axis.index(at) <= static_cast<double>(axis.count - 1);

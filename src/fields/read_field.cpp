@@ -2,9 +2,12 @@
 #include "fields/read_field.hpp"
 
 #include "comm/agree.hpp"
+#include "core/angle.hpp"
+#include "core/elementary.hpp"
 #include "core/random.hpp"
 #include "fields/nearest_fill.hpp"
 #include "fields/outline.hpp"
+#include "fields/smooth.hpp"
 #include "trime/core/error.hpp"
 
 #include <fmt/core.h>
@@ -15,6 +18,7 @@
 #include <cstring>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -61,7 +65,36 @@ double best_shift(const Axis& x, const geometry::Box& box, double period) {
   return best;
 }
 
-Cut cut_of(const RasterFile& file, const Outline& outline, double period) {
+/// The cosine of a latitude, at least that of 89 degrees.
+double parallel_share(double latitude) {
+  return elementary::cos(std::fmin(std::fabs(latitude), 89) * degrees);
+}
+
+/// The half widths of the weights of smoothed() for a cut of the file.
+SmoothReach reach_of(const FieldRequest& request, const Axis& x, const Axis& y) {
+  if (request.per_degree <= 0)
+    return {[width = request.smooth / x.step](std::int64_t) { return width; }, request.smooth / y.step};
+  const double angle = request.smooth / request.per_degree;
+  return {[angle, x, y](std::int64_t row) { return angle / x.step / parallel_share(y.at(static_cast<double>(row))); },
+          angle / y.step};
+}
+
+/// The box with room for the values around that are averaged.
+geometry::Box with_reach(geometry::Box box, const FieldRequest& request) {
+  const double up = request.per_degree > 0 ? request.smooth / request.per_degree : request.smooth;
+  box.min.y -= up;
+  box.max.y += up;
+  const double latitude = std::fmax(std::fabs(box.min.y), std::fabs(box.max.y));
+  double along = request.per_degree > 0 ? up / parallel_share(latitude) : up;
+  if (request.period > 0)
+    along = std::fmin(along, std::fmax(0, (request.period - box.width()) / 2));
+  box.min.x -= along;
+  box.max.x += along;
+  return box;
+}
+
+Cut cut_of(const RasterFile& file, const Outline& outline, const FieldRequest& request) {
+  const double period = request.period;
   Cut cut{file.x(), file.y(), {}, columns_around(file.x(), period), {}};
   geometry::Box box = outline.box;
   cut.x.first += best_shift(cut.x, box, period);
@@ -76,6 +109,7 @@ Cut cut_of(const RasterFile& file, const Outline& outline, double period) {
     cut.cells.min.x = box.min.x - period;
     cut.cells.max.x = box.max.x + period;
   }
+  box = with_reach(box, request);
   const auto range = [](const Axis& axis, double low, double high, bool bounded) {
     auto first = static_cast<std::int64_t>(std::floor(std::clamp(axis.index(low), -1e9, 1e9))) - margin;
     auto last = static_cast<std::int64_t>(std::ceil(std::clamp(axis.index(high), -1e9, 1e9))) + margin;
@@ -185,10 +219,10 @@ Raster read_on_root(const FieldRequest& request, const geometry::Boundary& bound
   if (request.period == 0 && !request.outside_is_nearest) { // before places are listed at steps of half a cell
     constexpr double infinite = std::numeric_limits<double>::infinity();
     const Outline ends = outline_of(boundary, to_file, {infinite, infinite}, 0);
-    check_cover(ends, cut_of(*file, ends, 0).cells, request.path);
+    check_cover(ends, cut_of(*file, ends, FieldRequest{}).cells, request.path);
   }
   const Outline outline = outline_of(boundary, to_file, {file->x().step, file->y().step}, request.period);
-  const Cut cut = cut_of(*file, outline, request.period);
+  const Cut cut = cut_of(*file, outline, request);
   if (!request.outside_is_nearest)
     check_cover(outline, cut.cells, request.path);
   Raster raster = read_cut(*file, cut, request);
@@ -259,7 +293,10 @@ ReadField read_field(const FieldRequest& request, const geometry::Boundary& boun
   head.single ? share(raster.singles, size, comm) : share(raster.doubles, size, comm);
   if (head.has_filled)
     share(raster.filled, (size + 7) / 8, comm);
-  return {std::make_unique<const Field>(std::move(raster), request.period, head.middle), head.hash};
+  std::optional<Raster> smooth;
+  if (request.smooth > 0)
+    comm::run_agreed(comm, [&] { smooth = smoothed(raster, reach_of(request, raster.x, raster.y)); });
+  return {std::make_unique<const Field>(std::move(raster), request.period, head.middle, std::move(smooth)), head.hash};
 }
 
 } // namespace trime::fields

@@ -22,6 +22,8 @@ struct FieldRequest {
   Fill fill = Fill::refuse;
   double fill_value = 0;
   bool outside_is_nearest = false; ///< places outside of the raster get the nearest value; otherwise they are an error
+  double smooth = 0;               ///< length over which gradients are smoothed; 0: they are not
+  double per_degree = 0;           ///< this length in a degree of latitude, if the file has degrees; otherwise 0
   double period = 0;               ///< period of x in the file: 360 if it is a longitude, otherwise 0
 };
 
@@ -42,7 +44,8 @@ inline constexpr double most_values = 4e8;
 geometry::Box raster_box(const FieldRequest& request, const comm::Communicator& comm);
 
 /// @brief Reads the values in and around the box of the shape on rank 0, band by band, and broadcasts them in pieces.
-/// Collective. Cost on each rank: 4 or 8 bytes for each value of the cut, and a bit more where values were filled.
+/// Collective. Cost on each rank: 4 or 8 bytes for each value of the cut, and a bit more where values were filled;
+/// twice that with a smooth copy, which each rank makes by all its threads, see smoothed().
 /// @throws FileError, GeometryError, ConfigError on all ranks: for a damaged file, a shape that the raster does not
 /// cover, a needed place without data, and more than most_values values
 ReadField read_field(const FieldRequest& request, const geometry::Boundary& boundary, const ToFile& to_file,

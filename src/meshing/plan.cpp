@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meshing/plan.hpp"
 
+#include "cleanup/rules.hpp"
 #include "meshing/rules.hpp"
 
 #include <cmath>
@@ -56,7 +57,8 @@ sweep::SweepOptions sweep_options(const MeshOptions& options) {
 
 cleanup::CleanupOptions cleanup_options(const MeshOptions& options) {
   return {options.absolute_sizes ? 0 : options.points.value_or(0),
-          options.features.keep_all ? 0 : MeshingRules::cleanup_tolerance * options.features.tolerance};
+          options.features.keep_all ? 0 : MeshingRules::cleanup_tolerance * options.features.tolerance,
+          cleanup::CleanupRules::bad_alpha, options.split_ears};
 }
 
 } // namespace trime::meshing

@@ -168,6 +168,89 @@ class CoastFormats(WorkspaceCase):
         self.assertEqual(done.returncode, 2)
         self.assertIn("needs 'depth'", done.stderr)
 
+    def accepted(self, ranks, *overrides):
+        """The table of rules as lists, and what the run said about them."""
+        done = run(self.directory / "bay.ini", "output.formats=vtkhdf xdmf", *overrides, ranks=ranks)
+        with h5py.File(self.directory / "bay.h5") as file:
+            group = file["trime_mpi/accept"]
+            table = {name: group[name].asstr()[:] if name in ("solver", "rule") else group[name][:] for name in group}
+        return done, table
+
+    def test_rules_of_models(self):
+        """The same on all ranks, and the same as NumPy finds."""
+        every = "output.accept=adcirc schism telemac fvcom delft3d mpas"
+        first = None
+        for ranks in (1, 2, 3):
+            done, table = self.accepted(ranks, every)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            if first is None:
+                first = table
+            for name in table:
+                np.testing.assert_array_equal(table[name], first[name], name)
+        self.assertEqual(set(first["solver"]), {"adcirc", "schism", "telemac", "fvcom", "delft3d", "mpas"})
+        with h5py.File(self.directory / "bay.h5") as file:
+            points, triangles = file["Mesh/mesh/geometry"][:], file["Mesh/mesh/topology"][:]
+            facets = file["Mesh/facets/topology"][:]
+        at = points[triangles]
+        along, back = np.roll(at, -1, axis=1) - at, np.roll(at, 1, axis=1) - at
+        angles = np.degrees(np.arccos((along * back).sum(axis=2) / np.linalg.norm(along, axis=2)
+                                      / np.linalg.norm(back, axis=2)))
+        rim = {tuple(sorted(edge)) for edge in facets.tolist()}
+        sides = [sum(tuple(sorted((t[k], t[k - 1]))) in rim for k in range(3)) for t in triangles.tolist()]
+
+        def row(solver, rule):
+            return int(np.flatnonzero((first["solver"] == solver) & (first["rule"] == rule))[0])
+
+        least = row("fvcom", "least_angle")
+        self.assertAlmostEqual(first["worst"][least], angles.min(), places=9)
+        np.testing.assert_allclose([first["x"][least], first["y"][least]],
+                                   at[np.unravel_index(angles.argmin(), angles.shape)[0]].mean(axis=0))
+        self.assertEqual(first["worst"][row("fvcom", "boundary_edges")], max(sides))
+        self.assertEqual(first["broken"][row("fvcom", "boundary_edges")], sum(count > 1 for count in sides))
+        self.assertEqual(first["worst"][row("adcirc", "triangles_at_point")], np.bincount(triangles.ravel()).max())
+        self.assertEqual(check(self.directory / "bay.h5")[0], 0)
+
+    def test_triangles_with_two_boundary_edges_are_split(self):
+        """In corners of 60 degrees and more; the corner at (2, 0) has less and keeps its one. All ranks agree."""
+        def kite(degrees):
+            half = np.radians(degrees / 2)
+            self.write("kite.xy", [(0, 0), (np.cos(half), -np.sin(half)), (2, 0), (np.cos(half), np.sin(half))])
+
+        def ears(split, ranks=1):
+            (self.directory / "kite.ini").write_text(
+                f"[shape]\ngeometry = kite\n[shape.kite]\ntype = contour\nfile = kite.xy\n[meshing]\n"
+                f"edge_length = 0.05\nsplit_ears = {split}\n[output]\naccept = fvcom\noverwrite = true\n"
+                f"directory = {self.directory}\n")
+            done = run(self.directory / "kite.ini", ranks=ranks)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            with h5py.File(self.directory / "kite.h5") as file:
+                group = file["trime_mpi/accept"]
+                rules = dict(zip(group["rule"].asstr()[:], zip(group["broken"][:], group["worst"][:])))
+                return (rules["boundary_edges"][0], rules["least_angle"][1], file["trime_mpi"].attrs["mesh_hash"])
+
+        for degrees in (64, 70, 78):
+            kite(degrees)
+            self.assertEqual(ears("false")[0], 2)
+            found = ears("true")
+            self.assertEqual(found[0], 1, degrees)
+            self.assertGreater(found[1], 30)
+        for ranks in (2, 3):
+            self.assertEqual(ears("true", ranks), found)
+        kite(50)
+        self.assertEqual(ears("true"), ears("false"))
+
+    def test_a_rule_that_makes_a_model_refuse_the_mesh_marks_it(self):
+        """SCHISM stops at an outer boundary that is open all along."""
+        done, table = self.accepted(2, "output.accept=schism", "output.open_boundary=open sea, coast")
+        self.assertEqual(done.returncode, INCOMPLETE, done.stdout + done.stderr)
+        self.assertRegex(done.stdout + done.stderr, "schism: looped open boundary 1.*1 of 1 loops break this rule, and "
+                                                    "schism refuses the mesh: give a part")
+        self.assertEqual(table["broken"][table["rule"] == "looped_open_boundary"].tolist(), [1])
+        self.assertEqual(check(self.directory / "bay.h5")[0], 0)
+        done = run(self.directory / "bay.ini", "output.accept=fvcomm")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("fvcom", done.stderr)
+
     def test_a_depth_that_is_no_number_marks_the_mesh(self):
         done = run(self.directory / "bay.ini", "output.depth=sqrt(x-0.5)", ranks=2)
         self.assertEqual(done.returncode, INCOMPLETE, done.stdout + done.stderr)

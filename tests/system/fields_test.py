@@ -6,6 +6,7 @@ import unittest
 import h5py
 import numpy
 
+from check_test import check
 from trime_run import Workspace, run
 
 CONFIG = """[shape]
@@ -115,6 +116,58 @@ class Fields(unittest.TestCase):
             counts[3][2] = -32767  # what the NetCDF library leaves in a cell that nobody has written
             write_netcdf(work / "unwritten.nc", counts, at, at, "i2", scale_factor=0.001)
             self.refuse(work, "unwritten.nc", "row 4, column 3")
+
+    def test_slopes_of_smooth_data(self):
+        """The slope of noisy data makes noisy sizes, that of the smoothed data does not; the same on all ranks."""
+        with Workspace() as work:
+            x = numpy.arange(81) / 50 - 0.3
+            noise = numpy.where(numpy.add.outer(numpy.arange(81), numpy.arange(81)) % 2, 0.004, -0.004)
+            write_ascii(work / "h.asc", 0.5 * x + noise, (-0.31, -0.31), 0.02)
+            formula = "sizing.expression=0.03*max(0.5, grad(h)/0.5)"
+            hashes = set()
+            for ranks in (1, 2, 3):
+                _, _, sizes, alpha, found = self.mesh(work, "h.asc", formula, "field.h.smooth=0.15", ranks=ranks)
+                numpy.testing.assert_allclose(sizes, 0.03, rtol=0.02)
+                self.assertLess(alpha, 1.2)
+                hashes.add(found)
+            self.assertEqual(len(hashes), 1)
+            sizes = self.mesh(work, "h.asc", formula)[2]
+            self.assertLess(sizes.mean(), 0.02)
+            self.refuse(work, "h.asc", "smooth", overrides=["field.h.smooth=-1"])
+
+    def test_several_sizes(self):
+        """At each place the smallest one of all sizes counts."""
+        with Workspace() as work:
+            write_ascii(work / "h.asc", [ROW] * 6)
+            more = "[size.left]\nexpression = 0.03 - 0.01*x\n[size.fine]\nexpression = 0.05*h/h\n"
+            (work / "s.ini").write_text(CONFIG.format(file="h.asc", gradation=0.1) + more, "ascii")
+
+            def mesh(*overrides, ranks=1):
+                done = run(work / "s.ini", f"output.directory={work}", "output.overwrite=true", *overrides, ranks=ranks)
+                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+                with h5py.File(work / "s.h5") as file:
+                    return (done.stdout, file["Mesh/mesh/geometry"][:][:, 0], file["VTKHDF/PointData/size"][:],
+                            file["trime_mpi"].attrs["mesh_hash"])
+
+            said, x, sizes, of_one = mesh()
+            wanted = numpy.minimum(0.02 + 0.02 * x, 0.03 - 0.01 * x)
+            numpy.testing.assert_allclose(sizes, wanted, rtol=1e-3)
+            share = 100 * numpy.mean(0.02 + 0.02 * x <= 0.03 - 0.01 * x)
+            found = float(said.split("[sizing] ")[1].split(" %")[0])
+            self.assertAlmostEqual(found, share, delta=0.6)
+            self.assertIn("[size.fine] 0 % of the points", said)
+            for ranks in (2, 3):
+                self.assertEqual(mesh(ranks=ranks)[3], of_one)
+            self.assertEqual(check(work / "s.h5")[0], 0)
+            _, x, sizes, _ = mesh("sizing.type=uniform", "sizing.scale=absolute", "sizing.max_size=0.027")
+            numpy.testing.assert_allclose(sizes, numpy.minimum(0.027, 0.03 - 0.01 * x), rtol=1e-3)
+            said, x, sizes, _ = mesh("sizing.type=automatic", "sizing.scale=absolute", "sizing.min_size=0.01")
+            self.assertTrue((sizes <= 0.03 - 0.01 * x + 1e-4).all())
+            self.assertIn("[sizing]", said)
+            (work / "s.ini").write_text(CONFIG.format(file="h.asc", gradation=0.1) + "[size.left]\n", "ascii")
+            done = run(work / "s.ini", ranks=2)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn("[size.left] needs 'expression'", done.stderr)
 
     def test_bad_input(self):
         with Workspace() as work:

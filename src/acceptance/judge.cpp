@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "acceptance/judge.hpp"
+
+#include "core/angle.hpp"
+#include "trime/core/error.hpp"
+#include "trime/handover/local_mesh.hpp"
+#include "trime/mesh/quality.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+#include <numeric>
+#include <optional>
+
+namespace trime::acceptance {
+namespace {
+
+using geometry::Vec2;
+using handover::LocalMesh;
+using Corners = std::array<Vec2, 3>;
+
+constexpr double none = std::numeric_limits<double>::max();
+
+std::size_t at(LocalIndex index) {
+  return static_cast<std::size_t>(index);
+}
+
+/// Collects the values of one rule on this rank.
+struct Tally {
+  SolverRule rule;
+  std::int64_t measured = 0, broken = 0;
+  double worst = -none; // as badness(): larger is worse
+  double item = none;   // number of the first item with the worst value; exact, since it is below 2^53
+  Vec2 place{};
+
+  /// Larger values are worse.
+  double badness(double value) const { return rule.is_least ? -value : value; }
+
+  void add(double value, GlobalId number, Vec2 where) {
+    ++measured;
+    broken += badness(value) > badness(rule.limit);
+    const double bad = badness(value);
+    const auto its = static_cast<double>(number);
+    if (bad < worst || (bad == worst && its >= item))
+      return;
+    worst = bad;
+    item = its;
+    place = where;
+  }
+};
+
+double area_of(const Corners& p) {
+  return 0.5 * geometry::cross(p[1] - p[0], p[2] - p[0]);
+}
+
+Vec2 middle_of(const Corners& p) {
+  return (1 / 3.0) * (p[0] + p[1] + p[2]);
+}
+
+double skewness_of(const Corners& p) {
+  const double longest =
+      std::max({geometry::length(p[1] - p[0]), geometry::length(p[2] - p[1]), geometry::length(p[0] - p[2])});
+  return longest / std::sqrt(area_of(p) / pi);
+}
+
+/// The circumcentre, or where the line to it from the centre of mass leaves the triangle.
+Vec2 cell_centre(const Corners& p) {
+  const Vec2 u = p[1] - p[0], v = p[2] - p[0];
+  const double uu = geometry::squared_length(u), vv = geometry::squared_length(v), d = 2 * geometry::cross(u, v);
+  const Vec2 circumcentre = p[0] + Vec2{(vv * u.y - uu * v.y) / -d, (uu * v.x - vv * u.x) / -d};
+  const Vec2 mass = middle_of(p), way = circumcentre - mass;
+  double share = 1;
+  for (std::size_t k = 0; k < 3; ++k) { // sides are to the left of their outside
+    const Vec2 side = p[(k + 1) % 3] - p[k];
+    const double inside = geometry::cross(side, mass - p[k]), change = geometry::cross(side, way);
+    if (inside + change < 0)
+      share = std::fmin(share, inside / -change);
+  }
+  return mass + share * way;
+}
+
+/// One side of a local triangle, known by the lower of its end points, which this rank owns.
+struct Side {
+  GlobalId low, high; // ends
+  LocalIndex triangle;
+  int k; // the side from the k-th corner
+};
+
+/// All measures of one mesh.
+class Judge {
+public:
+  /// @param marks of all local points, see Measure::boundary_marks
+  Judge(const LocalMesh& mesh, const geometry::Periods& periods, std::span<const double> marks,
+        std::vector<Tally>& tallies)
+      : mesh_(mesh), periods_(periods), marks_(marks) {
+    for (Tally& tally : tallies)
+      of_measure_[static_cast<std::size_t>(tally.rule.measure)].push_back(&tally);
+  }
+
+  void triangles() const;
+  void points() const;
+  void sides() const;
+
+private:
+  /// The corners of a triangle next to each other, also in a periodic container.
+  Corners corners(LocalIndex triangle) const {
+    const auto& [a, b, c] = mesh_.triangles[at(triangle)];
+    const Vec2 p = mesh_.points[at(a)];
+    if (!periods_.any())
+      return {p, mesh_.points[at(b)], mesh_.points[at(c)]};
+    return {p, periods_.nearest_image(mesh_.points[at(b)], p), periods_.nearest_image(mesh_.points[at(c)], p)};
+  }
+  bool wants(std::initializer_list<Measure> some) const {
+    return std::ranges::any_of(
+        some, [&](Measure measure) { return !of_measure_[static_cast<std::size_t>(measure)].empty(); });
+  }
+  void add(Measure measure, double value, GlobalId number, Vec2 where) const {
+    for (Tally* tally : of_measure_[static_cast<std::size_t>(measure)])
+      tally->add(value, number, where);
+  }
+  std::vector<Side> sorted_sides() const;
+  void add_pair(const Side& one, const Side& other) const;
+
+  const LocalMesh& mesh_;
+  const geometry::Periods periods_;
+  const std::span<const double> marks_;
+  std::array<std::vector<Tally*>, measures> of_measure_; // the rules of each measure
+};
+
+void Judge::triangles() const {
+  std::vector<std::int8_t> edges(at(mesh_.owned_triangles), 0);
+  for (LocalIndex facet = 0; facet < mesh_.owned_facets; ++facet)
+    ++edges[at(mesh_.facet_triangles[at(facet)])];
+  for (LocalIndex t = 0; t < mesh_.owned_triangles; ++t) {
+    const Corners p = corners(t);
+    const GlobalId number = mesh_.triangle_ids[at(t)];
+    const Vec2 middle = middle_of(p);
+    if (wants({Measure::least_angle}))
+      add(Measure::least_angle, mesh::min_angle_degrees(p[0], p[1], p[2]), number, middle);
+    if (wants({Measure::largest_angle}))
+      add(Measure::largest_angle, mesh::max_angle_degrees(p[0], p[1], p[2]), number, middle);
+    add(Measure::skewness, skewness_of(p), number, middle);
+    add(Measure::boundary_edges, edges[at(t)], number, middle);
+    double marks = 0, marked = 0;
+    for (const LocalIndex corner : mesh_.triangles[at(t)]) {
+      marks += marks_[at(corner)];
+      marked += marks_[at(corner)] > 0;
+    }
+    add(Measure::boundary_corners, marked, number, middle);
+    add(Measure::boundary_marks, marks, number, middle);
+  }
+}
+
+void Judge::points() const {
+  std::vector<std::int32_t> triangles(at(mesh_.owned_points), 0), paths(at(mesh_.owned_points), 0);
+  for (const std::array<LocalIndex, 3>& triangle : mesh_.triangles)
+    for (const LocalIndex corner : triangle)
+      if (corner < mesh_.owned_points)
+        ++triangles[at(corner)];
+  for (const auto& [from, to] : mesh_.facets)
+    if (from < mesh_.owned_points)
+      ++paths[at(from)];
+  for (LocalIndex p = 0; p < mesh_.owned_points; ++p) {
+    add(Measure::triangles_at_point, triangles[at(p)], mesh_.global_id(p), mesh_.points[at(p)]);
+    if (mesh_.boundary[at(p)] == 0)
+      add(Measure::cell_edges, triangles[at(p)], mesh_.global_id(p), mesh_.points[at(p)]);
+    else
+      add(Measure::boundary_paths, paths[at(p)], mesh_.global_id(p), mesh_.points[at(p)]);
+  }
+}
+
+/// Both triangles of a side that ends at an owned point are local, so each side counts on one rank. Sides are sorted by
+/// their ends.
+std::vector<Side> Judge::sorted_sides() const {
+  std::vector<std::size_t> first(at(mesh_.owned_points) + 1, 0); // by lower end
+  const auto for_each = [&](const auto& visit) {
+    for (LocalIndex t = 0; t < static_cast<LocalIndex>(mesh_.triangles.size()); ++t)
+      for (int k = 0; k < 3; ++k) {
+        const LocalIndex a = mesh_.triangles[at(t)][at(k)], b = mesh_.triangles[at(t)][at((k + 1) % 3)];
+        const bool a_is_low = mesh_.global_id(a) < mesh_.global_id(b);
+        if (const LocalIndex low = a_is_low ? a : b; low < mesh_.owned_points)
+          visit(at(low), Side{mesh_.global_id(low), mesh_.global_id(a_is_low ? b : a), t, k});
+      }
+  };
+  for_each([&](std::size_t low, const Side&) { ++first[low + 1]; });
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<Side> sides(first.back());
+  std::vector<std::size_t> next(first.begin(), first.end() - 1);
+  for_each([&](std::size_t low, const Side& side) { sides[next[low]++] = side; });
+  for (std::size_t low = 0; low + 1 < first.size(); ++low)
+    std::sort(sides.begin() + static_cast<std::ptrdiff_t>(first[low]),
+              sides.begin() + static_cast<std::ptrdiff_t>(first[low + 1]),
+              [](const Side& one, const Side& other) { return one.high < other.high; });
+  return sides;
+}
+
+void Judge::add_pair(const Side& one, const Side& other) const {
+  const Corners p = corners(one.triangle);
+  const std::size_t k = at(one.k);
+  const std::array<Vec2, 2> side{p[k], p[(k + 1) % 3]};
+  const auto& across = mesh_.triangles[at(other.triangle)];
+  const Vec2 middle = 0.5 * (side[0] + side[1]);
+  const Vec2 far = mesh_.points[at(across[at((other.k + 2) % 3)])];
+  const Vec2 d = periods_.any() ? periods_.nearest_image(far, middle) : far;
+  const GlobalId number = 3 * mesh_.triangle_ids[at(one.triangle)] + one.k;
+  const double here = area_of(p), there = area_of({side[1], side[0], d});
+  add(Measure::area_share, std::fmin(here, there) / std::fmax(here, there), number, middle);
+  const FlowLink link = flow_link(side, p[(k + 2) % 3], d);
+  add(Measure::link_cosine, link.cosine, number, middle);
+  add(Measure::link_length, link.length, number, middle);
+}
+
+void Judge::sides() const {
+  if (!wants({Measure::area_share, Measure::link_cosine, Measure::link_length}))
+    return;
+  const std::vector<Side> sides = sorted_sides();
+  for (std::size_t k = 0; k + 1 < sides.size(); ++k) {
+    const Side &one = sides[k], &other = sides[k + 1];
+    const bool is_first = mesh_.triangle_ids[at(one.triangle)] < mesh_.triangle_ids[at(other.triangle)];
+    if (one.low == other.low && one.high == other.high)
+      add_pair(is_first ? one : other, is_first ? other : one);
+  }
+}
+
+/// Returns the marks of all local points, see Measure::boundary_marks. Collective.
+std::vector<double> marks_of(const LocalMesh& mesh, const std::vector<bool>& open_parts,
+                             const comm::Communicator& comm) {
+  std::vector<double> marks(mesh.points.size());
+  std::ranges::transform(mesh.boundary, marks.begin(), [](std::int32_t tag) { return tag != 0 ? 1.0 : 0.0; });
+  for (std::size_t facet = 0; facet < mesh.facets.size(); ++facet) {
+    const auto part = static_cast<std::size_t>(mesh.facet_parts[facet]);
+    if (part < open_parts.size() && open_parts[part])
+      for (const LocalIndex end : mesh.facets[facet])
+        marks[at(end)] = 2;
+  }
+  handover::update_ghosts(comm, mesh, marks); // not all facets of a ghost are known here
+  return marks;
+}
+
+std::vector<Tally> tallies_of(std::span<const Solver> solvers) {
+  std::vector<Tally> tallies;
+  for (const SolverRule& rule : solver_rules())
+    if (std::ranges::find(solvers, rule.solver) != solvers.end())
+      tallies.push_back({rule});
+  return tallies;
+}
+
+/// Adds what is known of the whole mesh on all ranks; rank 0 counts it.
+void add_facts(const BoundaryFacts& boundary, std::vector<Tally>& tallies) {
+  for (Tally& tally : tallies)
+    if (tally.rule.measure == Measure::components) {
+      tally.measured = boundary.components;
+      tally.worst = static_cast<double>(boundary.components);
+      tally.broken = boundary.components - 1;
+    } else if (tally.rule.measure == Measure::looped_open_boundary) {
+      tally.measured = boundary.outer_loops;
+      tally.broken = boundary.open_outer_loops;
+      tally.worst = static_cast<double>(boundary.open_outer_loops);
+    }
+}
+
+/// Combines the tallies of all ranks. Collective.
+std::vector<Verdict> combined(const std::vector<Tally>& here, const comm::Communicator& comm) {
+  std::vector<std::int64_t> counts;
+  std::vector<double> worst, first;
+  for (const Tally& tally : here) {
+    counts.insert(counts.end(), {tally.measured, tally.broken});
+    worst.push_back(tally.worst);
+  }
+  comm.sum_and_max(counts, worst);
+  for (std::size_t k = 0; k < here.size(); ++k)
+    first.push_back(here[k].worst == worst[k] ? here[k].item : none);
+  comm.min(first);
+  std::vector<double> places;
+  for (std::size_t k = 0; k < here.size(); ++k) {
+    const bool is_mine = here[k].item != none && here[k].worst == worst[k] && here[k].item == first[k];
+    places.insert(places.end(), {is_mine ? here[k].place.x : -none, is_mine ? here[k].place.y : -none});
+  }
+  comm.max(places);
+  std::vector<Verdict> verdicts;
+  for (std::size_t k = 0; k < here.size(); ++k) {
+    const SolverRule& rule = here[k].rule;
+    const double value = counts[2 * k] == 0 ? rule.limit : rule.is_least ? -worst[k] : worst[k];
+    verdicts.push_back({rule, counts[2 * k], counts[2 * k + 1], value, {places[2 * k], places[2 * k + 1]}});
+    if (!verdicts.back().has_place())
+      verdicts.back().place = {NAN, NAN};
+  }
+  return verdicts;
+}
+
+/// The name of a measure in a sentence.
+std::string words_of(Measure measure) {
+  std::string words(name_of(measure));
+  std::ranges::replace(words, '_', ' ');
+  return words;
+}
+
+} // namespace
+
+FlowLink flow_link(const std::array<Vec2, 2>& side, Vec2 c, Vec2 d) {
+  const Corners left{side[0], side[1], c}, right{side[1], side[0], d};
+  const Vec2 link = cell_centre(right) - cell_centre(left), along = side[1] - side[0];
+  const double length = geometry::length(link), edge = geometry::length(along);
+  const double root = 0.5 * (std::sqrt(area_of(left)) + std::sqrt(area_of(right)));
+  const double dot = link.x * along.x + link.y * along.y;
+  return {length > 0 ? std::fabs(dot) / (length * edge) : 0, length / root};
+}
+
+std::vector<Verdict> judge(const mesh::DistributedMesh& mesh, std::span<const Solver> solvers,
+                           const BoundaryFacts& boundary, const comm::Communicator& comm) {
+  std::vector<Tally> tallies = tallies_of(solvers);
+  if (tallies.empty())
+    return {};
+  const LocalMesh local = handover::make_local_mesh(comm, mesh);
+  const std::vector<double> marks = marks_of(local, boundary.open_parts, comm);
+  const Judge judge(local, boundary.periods, marks, tallies);
+  judge.triangles();
+  judge.points();
+  judge.sides();
+  if (comm.is_root())
+    add_facts(boundary, tallies);
+  return combined(tallies, comm);
+}
+
+std::string text_of(const Verdict& v) {
+  const std::string where = v.has_place() ? fmt::format(" at {}", Place(v.place, 6)) : "";
+  return fmt::format("{}: {} {:.4g}{}, expected at {} {:g}; {} of {} {} break this rule{}: {}", word_of(v.rule.solver),
+                     words_of(v.rule.measure), v.worst, where, v.rule.is_least ? "least" : "most", v.rule.limit,
+                     v.broken, v.measured, v.rule.breakers,
+                     v.rule.refuses ? fmt::format(", and {} refuses the mesh", word_of(v.rule.solver)) : "",
+                     v.rule.advice);
+}
+
+} // namespace trime::acceptance

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/acceptance_report.hpp"
+
+#include "record/groups.hpp"
+#include "trime/core/error.hpp"
+
+#include <algorithm>
+#include <string>
+
+namespace trime::app {
+namespace {
+
+using acceptance::Verdict;
+using polygon::LoopSummary;
+
+/// Counts the outer loops, and those whose parts are all open.
+acceptance::BoundaryFacts facts_of(const AcceptanceInput& input, const meshing::MeshResult& result) {
+  acceptance::BoundaryFacts facts{input.periods, result.components, 0, 0, input.open_parts};
+  const auto is_open = [&](std::int32_t part) {
+    const auto k = static_cast<std::size_t>(part);
+    return k < input.open_parts.size() && input.open_parts[k];
+  };
+  for (const LoopSummary& loop : result.loops)
+    if (loop.kind == LoopSummary::Kind::outer) {
+      ++facts.outer_loops;
+      facts.open_outer_loops += std::ranges::all_of(loop.parts, is_open);
+    }
+  return facts;
+}
+
+mesh::Check check_of(const Verdict& verdict) {
+  const acceptance::SolverRule& rule = verdict.rule;
+  return {fmt::format("{}_{}", acceptance::word_of(rule.solver), acceptance::name_of(rule.measure)), 0,
+          static_cast<double>(verdict.broken), verdict.holds(),
+          fmt::format("{} that {} refuses: {} {:g} is allowed", rule.breakers, acceptance::word_of(rule.solver),
+                      rule.is_least ? "at least" : "at most", rule.limit)};
+}
+
+} // namespace
+
+std::vector<Verdict> judge_mesh(const AcceptanceInput& input, meshing::MeshResult& result,
+                                const comm::Communicator& comm) {
+  std::vector<Verdict> verdicts = acceptance::judge(result.mesh, input.solvers, facts_of(input, result), comm);
+  for (const Verdict& verdict : verdicts)
+    if (verdict.rule.refuses)
+      result.checks.push_back(check_of(verdict));
+  return verdicts;
+}
+
+void print_verdicts(const std::vector<Verdict>& verdicts, Log& log) {
+  for (std::size_t first = 0, end = 0; first < verdicts.size(); first = end) {
+    const acceptance::Solver solver = verdicts[first].rule.solver;
+    const auto is_other = [&](const Verdict& verdict) { return verdict.rule.solver != solver; };
+    const auto next = std::find_if(verdicts.begin() + static_cast<std::ptrdiff_t>(first), verdicts.end(), is_other);
+    end = static_cast<std::size_t>(next - verdicts.begin());
+    const auto held = std::count_if(verdicts.begin() + static_cast<std::ptrdiff_t>(first), next,
+                                    [](const Verdict& verdict) { return verdict.holds(); });
+    log.summary("accept {}: {} of {} rules hold", acceptance::word_of(solver), held, end - first);
+    for (std::size_t k = first; k < end; ++k)
+      if (!verdicts[k].holds())
+        log.warning("{}", acceptance::text_of(verdicts[k]));
+  }
+}
+
+io::MetadataGroup accept_group(const std::vector<Verdict>& verdicts) {
+  using record::column;
+  return {"accept",
+          {},
+          {column<std::string>("solver", verdicts,
+                               [](const Verdict& v) { return std::string(acceptance::word_of(v.rule.solver)); }),
+           column<std::string>("rule", verdicts,
+                               [](const Verdict& v) { return std::string(acceptance::name_of(v.rule.measure)); }),
+           column<std::int32_t>("is_least", verdicts, [](const Verdict& v) { return v.rule.is_least; }),
+           column<double>("limit", verdicts, [](const Verdict& v) { return v.rule.limit; }),
+           column<double>("worst", verdicts, &Verdict::worst),
+           column<std::int64_t>("broken", verdicts, &Verdict::broken),
+           column<std::int64_t>("measured", verdicts, &Verdict::measured),
+           column<std::int32_t>("refuses", verdicts, [](const Verdict& v) { return v.rule.refuses; }),
+           column<double>("x", verdicts, [](const Verdict& v) { return v.place.x; }),
+           column<double>("y", verdicts, [](const Verdict& v) { return v.place.y; })}};
+}
+
+} // namespace trime::app

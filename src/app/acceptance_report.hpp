@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Judges the mesh of a run by the rules of the models that its config names, and reports what was found.
+#pragma once
+
+#include "acceptance/judge.hpp"
+#include "trime/core/log.hpp"
+#include "trime/io/metadata.hpp"
+#include "trime/meshing/options.hpp"
+
+#include <vector>
+
+namespace trime::app {
+
+/// Holds what the rules need to know in addition to the mesh.
+struct AcceptanceInput {
+  std::vector<acceptance::Solver> solvers;
+  geometry::Periods periods;
+  std::vector<bool> open_parts; ///< for each part of the boundary
+};
+
+/// @brief Measures the mesh, and adds one check for each rule whose breaking makes the model refuse the mesh: the
+/// number of triangles, points or sides that break it must be 0. Collective. Cost: see acceptance::judge().
+std::vector<acceptance::Verdict> judge_mesh(const AcceptanceInput& input, meshing::MeshResult& result,
+                                            const comm::Communicator& comm);
+
+/// Prints one line for each solver, and a warning for each broken rule.
+void print_verdicts(const std::vector<acceptance::Verdict>& verdicts, Log& log);
+
+/// Returns the verdicts as a group of the mesh file, with one row for each rule.
+io::MetadataGroup accept_group(const std::vector<acceptance::Verdict>& verdicts);
+
+} // namespace trime::app

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The smallest one of several size fields at each place.
+#pragma once
+
+#include "trime/sizing/size_field.hpp"
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace trime::sizing {
+
+/// The minimum of several sizes, such as one from the depth of the sea and one from the distance to the coast.
+class MinimumSize final : public SizeField {
+public:
+  /// @pre at least one field; the fields outlive this object
+  explicit MinimumSize(std::vector<const SizeField*> fields) : fields_(std::move(fields)) {}
+  /// Returns the smallest size at p, or the first invalid one, so that the caller notices it.
+  double size(geometry::Vec2 p) const override { return at(p).size; }
+  /// Returns which field is the smallest one at p; the first of several equal ones.
+  std::size_t ruler(geometry::Vec2 p) const { return at(p).field; }
+  bool jumps() const override;
+  std::size_t memory_bytes() const override;
+
+private:
+  struct Smallest {
+    std::size_t field;
+    double size;
+  };
+  Smallest at(geometry::Vec2 p) const;
+
+  std::vector<const SizeField*> fields_;
+};
+
+} // namespace trime::sizing

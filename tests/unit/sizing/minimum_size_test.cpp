@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The smallest one of several sizes.
+#include "sizing/minimum_size.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace trime::sizing {
+namespace {
+
+/// a + b x, which is not positive everywhere.
+class LinearSize final : public SizeField {
+public:
+  LinearSize(double a, double b) : a_(a), b_(b) {}
+  double size(geometry::Vec2 p) const override { return a_ + b_ * p.x; }
+  bool jumps() const override { return b_ > 10; }
+
+private:
+  double a_, b_;
+};
+
+TEST(MinimumSize, IsTheSmallestOneAndNamesIt) {
+  const LinearSize falling(2, -1), rising(1, 1);
+  const UniformSize level(1.4);
+  const MinimumSize smallest({&falling, &rising, &level});
+  EXPECT_EQ(smallest.size({0, 0}), 1);
+  EXPECT_EQ(smallest.ruler({0, 0}), 1U);
+  EXPECT_EQ(smallest.size({0.5, 0}), 1.4);
+  EXPECT_EQ(smallest.ruler({0.5, 0}), 2U);
+  EXPECT_EQ(smallest.size({1, 0}), 1);
+  EXPECT_EQ(smallest.ruler({1, 0}), 0U);
+  EXPECT_FALSE(smallest.is_uniform());
+  EXPECT_FALSE(smallest.jumps());
+}
+
+TEST(MinimumSize, KeepsInvalidSizesSoThatTheMesherSeesThem) {
+  const LinearSize falling(2, -1), broken(std::nan(""), 0), steep(1, 11);
+  const UniformSize level(1.4);
+  EXPECT_EQ(MinimumSize({&falling, &level}).size({3, 0}), -1);
+  EXPECT_EQ(MinimumSize({&level, &falling}).size({3, 0}), -1);
+  EXPECT_TRUE(std::isnan(MinimumSize({&level, &broken}).size({0, 0})));
+  EXPECT_TRUE(std::isnan(MinimumSize({&broken, &level}).size({0, 0})));
+  EXPECT_TRUE(MinimumSize({&level, &steep}).jumps());
+}
+
+} // namespace
+} // namespace trime::sizing
