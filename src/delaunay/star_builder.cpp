@@ -56,9 +56,11 @@ public:
     cap_ = cap;
     center_ = positions_[i];
     changed_ = false;
+    coincides_ = false;
     const bool warm = start_warm();
     const bool certain = warm ? finish(0, 0) : start_cold();
     pass_.uncertain += !certain;
+    pass_.coincident += coincides_;
     stars_.set_certain(i, certain);
     if (!certain)
       stars_.clear(i);
@@ -76,6 +78,7 @@ private:
   };
 
   Vec2 offset(LocalIndex i) const { return positions_[i] - center_; }
+  bool lies_here(LocalIndex i) const { return positions_[i] == center_; }
 
   /// Takes up the last ring, if it has no gap and still is a star.
   bool start_warm() {
@@ -96,7 +99,7 @@ private:
   bool start_cold() {
     kernel_.start_virtual(center_, lattice_.snap(2 * cap_) + lattice_.step());
     for (const LocalIndex neighbour : ring_)
-      if (neighbour != gap)
+      if (neighbour != gap && !lies_here(neighbour))
         kernel_.insert(neighbour, offset(neighbour));
     const double window = first_window * cap_;
     near_.clear();
@@ -122,6 +125,7 @@ private:
     far_.resize(far + n);
     for (LocalIndex j = begin; j < end; ++j) {
       const double d2 = geometry::squared_length(offset(j));
+      coincides_ |= (d2 == 0) & (j != site_);
       near_[near] = {d2, j};
       far_[far] = {d2, j};
       near += (d2 < limit) & (d2 > 0);
@@ -185,6 +189,7 @@ private:
   void insert_run(LocalIndex begin, LocalIndex end, double done) {
     for (LocalIndex j = begin; j < end; ++j) {
       const double d2 = geometry::squared_length(offset(j));
+      coincides_ |= (d2 == 0) & (j != site_);
       if (d2 > done && d2 < 4 * kernel_.squared_radius() && !kernel_.contains(j)) // runs overlap: j may be a member
         changed_ |= kernel_.insert(j, offset(j));
     }
@@ -242,8 +247,8 @@ private:
   Vec2 center_;
   StarPass pass_;
   std::vector<mesh::BinRef> missing_;
-  bool changed_ = false;
-  std::span<const LocalIndex> ring_; // the last ring of the site
+  bool changed_ = false, coincides_ = false; // coincides: another site has been found at the place of this one
+  std::span<const LocalIndex> ring_;         // the last ring of the site
   std::vector<LocalIndex> ring_copy_, last_ring_;
   std::vector<Candidate> near_, far_;
   std::vector<std::uint8_t> counted_;
@@ -257,6 +262,7 @@ StarPass collect(const PerThread<Worker>& workers, std::vector<mesh::BinRef>& mi
     pass.computed += worker.pass().computed;
     pass.rebuilt += worker.pass().rebuilt;
     pass.uncertain += worker.pass().uncertain;
+    pass.coincident += worker.pass().coincident;
     missing.insert(missing.end(), worker.missing().begin(), worker.missing().end());
   }
   std::sort(missing.begin(), missing.end());
@@ -316,7 +322,9 @@ public:
         star_.compute(i, limit);
   }
 
-  StarPass pass() const { return {computed_, star_.pass().rebuilt + rebuilt_, star_.pass().uncertain}; }
+  StarPass pass() const {
+    return {computed_, star_.pass().rebuilt + rebuilt_, star_.pass().uncertain, star_.pass().coincident};
+  }
   const std::vector<mesh::BinRef>& missing() const { return star_.missing(); }
 
 private:

@@ -24,6 +24,9 @@ struct StarPass {
   std::int64_t computed = 0;  ///< stars that were computed
   std::int64_t rebuilt = 0;   ///< computed stars whose neighbours have changed
   std::int64_t uncertain = 0; ///< stars that need a bin that is not known
+  /// Stars, of those computed one by one, at whose place another site lies. Such a star is that of a single site, so
+  /// its neighbours have only one of the two in their stars.
+  std::int64_t coincident = 0;
 };
 
 /// A site whose star must be examined again, because the star of its neighbour `cause` has changed.

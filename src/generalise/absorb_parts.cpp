@@ -268,9 +268,7 @@ std::optional<Partition> absorb_parts(const geometry::InnerCurves& curves, const
   std::vector<geometry::RegionLoss> losses;
   if (!map.is_valid() || !Absorber(map, pairs, request.tips, losses).run(which))
     return std::nullopt;
-  Partition made = curves_of_labels(map, curves, boundary);
-  made.curves.losses.insert(made.curves.losses.end(), losses.begin(), losses.end());
-  return made;
+  return curves_of_labels(map, curves, boundary, std::move(losses));
 }
 
 } // namespace trime::generalise

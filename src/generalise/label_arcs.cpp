@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "generalise/label_arcs.hpp"
 
+#include "generalise/chord_losses.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,11 +23,12 @@ public:
         on_rim_(degree_.size(), 0), is_node_(degree_.size(), 0), is_corner_(degree_.size(), 0),
         is_used_(at(3 * mesh_.triangle_count()), 0) {}
 
-  Partition result() {
+  Partition result(std::vector<geometry::RegionLoss> losses) {
     find_nodes();
     Partition made{curves_, boundary_, true};
     made.curves.arcs.clear();
-    keep_arcs(made.curves);
+    add_chord_losses(map_, keep_arcs(made.curves), losses);
+    made.curves.losses.insert(made.curves.losses.end(), losses.begin(), losses.end());
     for (HalfEdge e = 0; e < 3 * mesh_.triangle_count(); ++e)
       if (is_free(e) && is_node_[at(mesh_.origin(e))] != 0)
         made.curves.arcs.push_back(follow(e));
@@ -90,8 +93,8 @@ private:
       is_node_[at(v)] = 1;
   }
 
-  /// Takes over the arcs whose labels and nodes have not changed.
-  void keep_arcs(geometry::InnerCurves& made) {
+  /// Takes over the arcs whose labels and nodes have not changed; returns for each arc whether it is one of these.
+  std::vector<char> keep_arcs(geometry::InnerCurves& made) {
     const std::size_t n = curves_.arcs.size();
     std::vector<char> stays(n, 1);
     std::vector<std::vector<HalfEdge>> edges(n);
@@ -115,6 +118,7 @@ private:
       for (const HalfEdge e : edges[k])
         use(e);
     }
+    return stays;
   }
 
   /// Has an edge of a strand the regions and the nodes that its arc was given? Nodes are only the two ends of an arc.
@@ -231,8 +235,8 @@ private:
 } // namespace
 
 Partition curves_of_labels(const RegionMap& map, const geometry::InnerCurves& curves,
-                           const geometry::Boundary& boundary) {
-  return ArcFinder(map, curves, boundary).result();
+                           const geometry::Boundary& boundary, std::vector<geometry::RegionLoss> losses) {
+  return ArcFinder(map, curves, boundary).result(std::move(losses));
 }
 
 } // namespace trime::generalise

@@ -22,6 +22,7 @@ public:
     int arc;           ///< number of the arc; -1 - loop for the boundary
     std::size_t piece; ///< number of the piece
     LocalIndex from, to;
+    double sweep; ///< turn of the arc of a circle that the chord stands for, positive to the left; 0 if it is straight
   };
 
   /// Refers to all of its arguments. @pre the container is not periodic
@@ -54,6 +55,8 @@ public:
   bool is_wall(HalfEdge e) const { return label(Triangulation::triangle(e)) != label_beside(e); }
   /// Returns the region that a strand was given on the side of a half-edge on it.
   int given_label(HalfEdge e) const;
+  /// Returns the area between a strand and the arc of a circle that it stands for; negative if the arc is on its left.
+  double bulge(const Strand& strand) const;
   /// Returns the curve of the user on an edge inside the shape, as an index into InnerCurves::names; -1 if none is.
   int curve_on(HalfEdge e) const;
   double area(LocalIndex triangle) const;
@@ -71,6 +74,7 @@ private:
   void find_tips();
   bool wants_node(HalfEdge e) const;
   bool add_node(HalfEdge e);
+  int chords_along(const geometry::Piece& piece) const;
   void add_strands(int arc, const std::vector<geometry::Piece>& pieces, std::vector<geometry::Vec2>& places);
   void insert_vertices(const std::vector<geometry::Vec2>& places);
   void hold_vertices();

@@ -30,6 +30,9 @@ struct GeneraliseRules {
   static constexpr int node_rounds = 24;
   /// [radians] Largest turn of an arc between two nodes: 15 degrees. Not measured.
   static constexpr double arc_step = 0.2617993877991494;
+  /// [h] Largest distance between an arc of an interface and its chords, where the arc becomes chords because another
+  /// line ends on it or follows it. Not measured.
+  static constexpr double arc_depth = 0.02;
   /// [rounds] Largest number of rounds in which loops that touch in a vertex are separated. Not measured.
   static constexpr int touch_rounds = 50;
   /// [h] A narrow part of the outside is widened only if a vertex there moves by more than this. Otherwise the next

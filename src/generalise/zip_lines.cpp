@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "generalise/zip_lines.hpp"
 
+#include "generalise/chord_losses.hpp"
 #include "generalise/line_mesh.hpp"
 #include "generalise/region_map.hpp"
 #include "generalise/rules.hpp"
@@ -163,6 +164,7 @@ private:
                                geometry::LossReason::thinning, area, 1, area, arc.pieces.front().start});
       }
     }
+    add_chord_losses(map_, stays, made.losses);
   }
 
   /// Makes arcs of all other lines, from node to node, then rings.

@@ -177,6 +177,19 @@ void prepare_to_stay(BinnedPoints& points) {
   });
 }
 
+bool has_coincident_sites(const BinnedPoints& points) {
+  bool any = false;
+  for (LocalIndex i = 0; i < points.owned() && !any; ++i)
+    points.for_each_near(
+        points.position(i), 0,
+        [&](LocalIndex begin, LocalIndex end) {
+          for (LocalIndex j = begin; j < end; ++j)
+            any |= j != i && points.position(j) == points.position(i);
+        },
+        [](BinRef) {});
+  return any;
+}
+
 void BinnedPoints::advance() {
   TRIME_ASSERT(state_ == State::prepared && next_.positions_.size() == positions_.size(),
                "there are {} sites, but {} next places", positions_.size(), next_.positions_.size());

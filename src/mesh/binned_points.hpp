@@ -188,6 +188,9 @@ private:
 /// threads.
 void prepare_to_stay(BinnedPoints& points);
 
+/// Returns whether two of the known sites, at least one of them owned, have the same place. Cost: O(n).
+bool has_coincident_sites(const BinnedPoints& points);
+
 /// Returns an owned site at its next place, with all its other data.
 /// @pre next places are set
 inline Site next_site(const BinnedPoints& points, LocalIndex i) {

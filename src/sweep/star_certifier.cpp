@@ -29,7 +29,7 @@ void StarCertifier::reset() {
 }
 
 void StarCertifier::begin_sweep() {
-  rebuilt_ = 0;
+  rebuilt_ = coincident_ = 0;
   checked_.clear();
   suspects_.clear();
   told_ghosts_.clear();
@@ -55,6 +55,7 @@ void StarCertifier::settle(std::vector<LocalIndex>& certified, std::vector<Local
     const delaunay::StarPass pass =
         builder_.certify(state_.points(), state_.stars(), state_.sizes(), suspects_, affected, missing_);
     rebuilt_ += pass.rebuilt;
+    coincident_ += pass.coincident;
     state_.comm().counters().add(Counter::stars_by_emptiness, pass.computed);
     state_.comm().counters().add(Counter::stars_rebuilt, pass.rebuilt);
     for (const LocalIndex i : suspects_)

@@ -31,6 +31,14 @@ namespace trime::sweep {
 /// triangle on this edge lies, beyond the edge, inside the diametral circle. No boundary site is inside such a circle
 /// (BoundarySites). Inner sites are rarely inside one; then the stars next to the boundary in nearby tiles need the
 /// empty-circumcircle test.
+///
+/// Two sites may come to the same place, for example when both are pushed out of the same disc. Their neighbours then
+/// see only one of them. Once the two part, the stars around them cover the plane twice, which the lemma does not see.
+/// So the caller must sort the sites as soon as coincident() is positive on any rank: that drops one of the two.
+///
+/// No such place is missed. Suppose that neither of the two stars there was examined. Then no star next to them has
+/// changed its triangles with them, so all stars are locally convex and agree. By the lemma they are a triangulation,
+/// and in a triangulation no two sites have the same place.
 class StarCertifier {
 public:
   /// @pre each star of an inner site was certain before the last moves, or its list of neighbours is empty; the target
@@ -74,6 +82,9 @@ public:
   /// Returns the number of stars of this rank that changed in this sweep, including stars next to borders that had to
   /// be built again.
   std::int64_t rebuilt() const { return rebuilt_; }
+  /// Returns the number of stars that were certified in this sweep at a place where two sites lie. Over all ranks it is
+  /// positive exactly if there is such a place, whatever the ranks and threads (see above).
+  std::int64_t coincident() const { return coincident_; }
   void end_sweep();
 
   /// Compares every star with a star computed from all surrounding sites by the empty-circumcircle test. Collective.
@@ -103,7 +114,7 @@ private:
   std::unordered_set<LocalIndex> told_ghosts_; // ghosts whose owners have received a message in this sweep, or will
   /// Places of the ghosts whose owners, according to their messages, have examined the star in this sweep.
   std::set<geometry::Vec2, decltype(&geometry::lexicographically_less)> heard_of_{geometry::lexicographically_less};
-  std::int64_t rebuilt_ = 0;
+  std::int64_t rebuilt_ = 0, coincident_ = 0;
 };
 
 } // namespace trime::sweep

@@ -219,8 +219,9 @@ StarCertifier::Open Sweeper::sum_over_ranks() {
   const SweepTally mine = outcomes_.sum();
   moving_ = mine.moving;
   const StarCertifier::Open open = certifier_.open();
-  std::array<std::int64_t, 8> sums{open.uncertain, certifier_.rebuilt(),    mine.moving,      mine.pushed,
-                                   mine.deleted,   mine.power & 0xffffffff, mine.power >> 32, open.untold};
+  std::array<std::int64_t, 9> sums{open.uncertain,   certifier_.rebuilt(), mine.moving,
+                                   mine.pushed,      mine.deleted,         mine.power & 0xffffffff,
+                                   mine.power >> 32, open.untold,          certifier_.coincident()};
   std::array<double, 4> largest{
       mine.squared_ratio, mine.squared_distance,
       TileActivity::largest_drift(state_.points(), certifier_.classes().around(), outcomes_.tallies()),
@@ -232,6 +233,7 @@ StarCertifier::Open Sweeper::sum_over_ranks() {
   counts_.pushed = sums[3];
   counts_.deleted = sums[4];
   counts_.power = FixedSum::join({sums[5], sums[6]});
+  coincident_ = sums[8];
   counts_.max_move = std::sqrt(largest[0]);
   largest_distance_ = std::sqrt(largest[1]);
   drift_in_tiles_ = largest[2];
@@ -241,6 +243,16 @@ StarCertifier::Open Sweeper::sum_over_ranks() {
 
 void Sweeper::prepare(const UpdateRule& rule, int wish) {
   wish_ = wish;
+  certify_and_place(rule);
+  if (coincident_ > 0) {
+    sort_here();
+    certify_and_place(rule);
+  }
+  prepared_ = true;
+}
+
+/// Certifies the stars at the present places, and finds the next places.
+void Sweeper::certify_and_place(const UpdateRule& rule) {
   state_.points().prepare_advance();
   certifier_.begin_sweep();
   irregular_.clear();
@@ -260,7 +272,6 @@ void Sweeper::prepare(const UpdateRule& rule, int wish) {
     state_.points().prepare_advance();
   }
   certifier_.end_sweep();
-  prepared_ = true;
   state_.comm().counters().add(Counter::passes);
 }
 
@@ -360,6 +371,8 @@ void Sweeper::restore(StateFields& fields, std::span<const std::uint64_t> activi
   activity_.restore(activity);
   for (std::size_t t = 0; t < certifier_.classes().around().size(); ++t) // all stars must be computed again
     site_activity_.wake_tile(state_.points().first_tile() + static_cast<LocalIndex>(t));
+  if (state_.comm().sum(std::int64_t{mesh::has_coincident_sites(state_.points())}) > 0)
+    sort_here(); // as the run did that wrote the checkpoint
 }
 
 void Sweeper::discard() {
@@ -369,9 +382,15 @@ void Sweeper::discard() {
 
 void Sweeper::sort() {
   finish_move();
-  discard();
   if (sorted_)
-    return;
+    discard();
+  else
+    sort_here();
+}
+
+/// Where the sites are. Of those that have the same place, one stays.
+void Sweeper::sort_here() {
+  discard();
   prepare_to_stay(state_.points());
   move_and_sort({});
 }

@@ -96,7 +96,8 @@ public:
     void follow_by(Counts later);
   };
 
-  /// @brief Certifies the stars, and computes the next places by the update rule. Collective.
+  /// @brief Certifies the stars, and computes the next places by the update rule. If two sites have come to the same
+  /// place, all sites are sorted before, which drops one of the two. Collective.
   /// @param wish a number from this rank, such as a request for a checkpoint; afterwards largest_wish() returns the
   /// maximum over all ranks
   void prepare(const UpdateRule& rule, int wish = 0);
@@ -117,7 +118,7 @@ public:
   /// data of each owned tile. The checkpoint also stores the sites.
   void visit(StateFields& fields);
   std::vector<std::uint64_t> saved_activity() const;
-  /// Restores the stored state.
+  /// Restores the stored state. Sorts the sites if two of them have the same place, as prepare() does. Collective.
   /// @param activity the stored activity of all tiles of the container
   /// @pre prepare() was not called yet
   void restore(StateFields& fields, std::span<const std::uint64_t> activity);
@@ -129,6 +130,7 @@ public:
 
 private:
   void reset();
+  void certify_and_place(const UpdateRule& rule);
   void run_kernel(const UpdateRule& rule, TilePlace which);
   void count_sites(TilePlace which, std::int64_t awake) const;
   struct TileLeftovers;
@@ -143,6 +145,7 @@ private:
   void finish_move();
   void note_pushes();
   void note_restless();
+  void sort_here();
   void move_and_sort(std::vector<std::uint8_t> deleted);
 
   sites::SiteState& state_;
@@ -159,8 +162,9 @@ private:
   Counts counts_;
   double largest_distance_ =
       0; // largest drift since the last sorting including this move, divided by the side of a tile, over all ranks
-  double drift_in_tiles_ = 0; // drift in tiles after this move, over all ranks
-  std::int64_t moving_ = 0;   // number of sites of this rank that move in this sweep
+  double drift_in_tiles_ = 0;   // drift in tiles after this move, over all ranks
+  std::int64_t coincident_ = 0; // stars in the last pass at whose places two sites lie, over all ranks
+  std::int64_t moving_ = 0;     // number of sites of this rank that move in this sweep
   int moves_ = 0;
   int wish_ = 0, largest_wish_ = 0; // number given by this rank, and largest number of all ranks
   bool sorted_ = true, prepared_ = false, under_way_ = false;
