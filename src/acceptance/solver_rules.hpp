@@ -31,7 +31,7 @@ enum class Measure {
 };
 
 /// Number of the measures.
-inline constexpr std::size_t measures = static_cast<std::size_t>(Measure::looped_open_boundary) + 1;
+constexpr std::size_t measures = static_cast<std::size_t>(Measure::looped_open_boundary) + 1;
 
 /// A rule of a solver: the measure must be at least, or at most, the limit.
 struct SolverRule {
