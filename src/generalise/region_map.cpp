@@ -2,6 +2,7 @@
 #include "generalise/region_map.hpp"
 
 #include "core/hilbert.hpp"
+#include "generalise/arc_chords.hpp"
 #include "generalise/rules.hpp"
 
 #include <algorithm>
@@ -114,24 +115,8 @@ void RegionMap::find_tips() {
   splits_.erase(std::unique(splits_.begin(), splits_.end(), overlap), splits_.end());
 }
 
-/// The number of chords for a piece. An arc between chords is nowhere farther from them than the triangles can show.
-int RegionMap::chords_along(const Piece& piece) const {
-  if (!piece.circular)
-    return 1;
-  const double radius = piece.length() / std::fabs(piece.sweep);
-  double h = sizing::checked_size(request_.size, piece.start);
-  for (const Vec2 p : {piece.point(0.5 * piece.length()), piece.end})
-    h = std::fmin(h, sizing::checked_size(request_.size, p));
-  const double step = std::fmin(GeneraliseRules::arc_step, std::sqrt(8 * GeneraliseRules::arc_depth * h / radius));
-  return std::max(1, static_cast<int>(std::ceil(std::fabs(piece.sweep) / step)));
-}
-
 double RegionMap::bulge(const Strand& strand) const {
-  const double chord = geometry::length(mesh_.point(strand.to) - mesh_.point(strand.from));
-  if (strand.sweep == 0)
-    return 0;
-  const double radius = chord / (2 * std::sin(0.5 * std::fabs(strand.sweep)));
-  return 0.5 * radius * radius * (strand.sweep - std::sin(strand.sweep));
+  return area_on_chord(geometry::length(mesh_.point(strand.to) - mesh_.point(strand.from)), strand.sweep);
 }
 
 void RegionMap::add_strands(int arc, const std::vector<Piece>& pieces, std::vector<Vec2>& places) {
@@ -139,7 +124,7 @@ void RegionMap::add_strands(int arc, const std::vector<Piece>& pieces, std::vect
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     const Piece& piece = pieces[k];
     places.push_back(piece.start);
-    const int parts = chords_along(piece);
+    const int parts = chords_along(piece, request_.size);
     const auto add = [&](Vec2 end) {
       if (end == places.back())
         return;

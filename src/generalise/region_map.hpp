@@ -74,7 +74,6 @@ private:
   void find_tips();
   bool wants_node(HalfEdge e) const;
   bool add_node(HalfEdge e);
-  int chords_along(const geometry::Piece& piece) const;
   void add_strands(int arc, const std::vector<geometry::Piece>& pieces, std::vector<geometry::Vec2>& places);
   void insert_vertices(const std::vector<geometry::Vec2>& places);
   void hold_vertices();

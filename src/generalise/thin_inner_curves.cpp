@@ -2,6 +2,7 @@
 #include "generalise/thin_inner_curves.hpp"
 
 #include "generalise/absorb_parts.hpp"
+#include "generalise/arc_chords.hpp"
 #include "generalise/close_nodes.hpp"
 #include "generalise/cut_wedges.hpp"
 #include "generalise/join_lines.hpp"
@@ -289,10 +290,12 @@ Partition without_slivers(Partition given, const ArcRequest& request, std::span<
   return made;
 }
 
-/// Joins curves with the boundary and with each other.
+/// Joins curves with the boundary and with each other. Circular interfaces become chords where curves follow them.
 Partition with_joined_lines(Partition given, const ArcRequest& request) {
   given.curves.on_boundary.clear(); // which belongs to the curves as they were given
   given.curves.outside.clear();
+  if (std::optional<Partition> straight = with_chords_along_curves(given, request))
+    given = std::move(*straight);
   std::optional<Partition> joined = join_lines(given, request);
   return joined ? std::move(*joined) : std::move(given);
 }

@@ -12,7 +12,7 @@ import h5py
 import numpy as np
 
 from regions_test import CHECK, RegionsTest
-from region_meshes import rectangle, region, triangle
+from region_meshes import Mesh, circle, rectangle, region, triangle
 
 ROUNDING = 1e-12
 
@@ -94,6 +94,25 @@ class Ragged(LossesTest):
         self.assertEqual(key, ("inner", "domain", "chords"))
         self.assertAlmostEqual(mesh.area("inner") + lost, 0.09 * math.pi, delta=1e-10)
         self.assertLess(np.abs(np.hypot(*(mesh.points[mesh.edges.ravel()] - 0.5).T) - 0.3).max(), 1e-12)
+
+
+class Followed(LossesTest):
+    def test_curves_along_circles(self):
+        """A curve that follows a circular interface nearer than the triangles can show becomes one line with it."""
+        for distance, first, last in ((0.05, 0.0, 1.0), (0.15, 0.0, 0.4), (-0.15, 0.1, 0.7)):
+            radius = 0.2 + distance * 0.024
+            arc = [(0.5 + radius * math.cos(2 * math.pi * t), 0.5 + radius * math.sin(2 * math.pi * t))
+                   for t in np.linspace(first, last, 60).tolist()]
+            self.write("line.xy", arc)
+            done = self.run_config(circle("part", 0.2) + region("inner", "part") + "[curve.line]\nfile = line.xy\n")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            judged = subprocess.run([CHECK, self.directory / "mesh.h5"], capture_output=True, text=True, check=False)
+            self.assertEqual(judged.returncode, 0, judged.stdout)
+            mesh = Mesh(self.directory / "mesh.h5")
+            self.assertLessEqual(mesh.alpha(), 1.3, distance)
+            self.assertAlmostEqual(mesh.area("inner") + self.lost_by("inner"), 0.04 * math.pi, delta=1e-10)
+            length = mesh.curve_lengths["line"]
+            self.assertAlmostEqual(length / (2 * math.pi * 0.2 * (last - first)), 1, delta=0.03)
 
 
 class Wedges(LossesTest):

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "generalise/arc_chords.hpp"
+
+#include "generalise/rules.hpp"
+#include "trime/geometry/piece_tree.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace trime::generalise {
+namespace {
+
+using geometry::InnerArc;
+using geometry::Piece;
+using geometry::Vec2;
+
+constexpr double place_step = 0.1;  // [h] Distance of places along a curve next to circular pieces.
+constexpr double whole_part = 2;    // [h] Parts of a curve that are so long are looked at as a whole first.
+constexpr double grown = 1.5;       // [snap_distance] The distance at which that is done: h may grow along the part.
+constexpr double crossing_room = 1; // [h] Places of a curve that are nearer to its ends do not count.
+constexpr double most_places = 1e7; // Places along one piece. A longer one follows nothing.
+
+/// All circular pieces of interfaces.
+class CircularPieces {
+public:
+  explicit CircularPieces(const std::vector<InnerArc>& arcs) {
+    geometry::Boundary all;
+    for (std::size_t k = 0; k < arcs.size(); ++k) {
+      if (arcs[k].left == arcs[k].right)
+        continue;
+      geometry::Loop circles;
+      for (const Piece& piece : arcs[k].pieces)
+        if (piece.circular) {
+          circles.pieces.push_back(piece);
+          arc_of_.push_back(k);
+        }
+      if (!circles.pieces.empty())
+        all.loops.push_back(std::move(circles));
+    }
+    tree_ = geometry::PieceTree(all);
+  }
+  bool empty() const { return arc_of_.empty(); }
+
+  /// Marks the arcs that a curve follows.
+  void mark_followed(const InnerArc& curve, const sizing::SizeField& size, std::vector<char>& is_followed) const {
+    const std::array<Vec2, 2> ends{curve.pieces.front().start, curve.pieces.back().end};
+    for (const Piece& piece : curve.pieces) {
+      const double whole = piece.length(), h = sizing::checked_size(size, piece.start);
+      const double parts = std::fmax(1, std::ceil(whole / (whole_part * h)));
+      for (double part = 0; part < std::fmin(parts, most_places); ++part) {
+        const double way = whole / parts, middle = (part + 0.5) * way;
+        const Vec2 p = piece.point(middle);
+        const double here = sizing::checked_size(size, p);
+        if (tree_.within(p, 0.5 * way + grown * GeneraliseRules::snap_distance * here).empty())
+          continue;
+        const double places = std::fmin(std::ceil(way / (place_step * here)), most_places);
+        for (double k = 0; k < places; ++k)
+          mark_near(piece.point(way * (part + (k + 0.5) / places)), curve.closed ? nullptr : &ends, size, is_followed);
+      }
+    }
+  }
+
+private:
+  void mark_near(Vec2 p, const std::array<Vec2, 2>* ends, const sizing::SizeField& size,
+                 std::vector<char>& is_followed) const {
+    const double h = sizing::checked_size(size, p);
+    for (const std::size_t k : tree_.within(p, GeneraliseRules::snap_distance * h))
+      if (ends == nullptr ||
+          std::ranges::none_of(*ends, [&](Vec2 end) { return geometry::length(end - p) < crossing_room * h; }))
+        is_followed[arc_of_[k]] = 1;
+  }
+
+  std::vector<std::size_t> arc_of_; // by piece of the tree
+  geometry::PieceTree tree_;
+};
+
+/// Chords in place of the circular pieces of an arc.
+void make_chords(InnerArc& arc, const ArcRequest& request) {
+  std::vector<Piece> pieces;
+  for (const Piece& piece : arc.pieces) {
+    if (!piece.circular) {
+      pieces.push_back(piece);
+      continue;
+    }
+    const int chords = chords_along(piece, request.size);
+    for (int k = 0; k < chords; ++k) {
+      Piece& chord = pieces.emplace_back();
+      chord.start = k == 0 ? piece.start : pieces[pieces.size() - 2].end;
+      chord.end = k + 1 == chords ? piece.end : request.lattice.snap(piece.point(piece.length() * (k + 1) / chords));
+      chord.part = piece.part;
+      chord.corner = k == 0 && piece.corner;
+      arc.lost_area += area_on_chord(geometry::length(chord.end - chord.start), piece.sweep / chords);
+    }
+  }
+  arc.pieces = std::move(pieces);
+  arc.is_simplified = true;
+}
+
+} // namespace
+
+int chords_along(const Piece& piece, const sizing::SizeField& size) {
+  if (!piece.circular)
+    return 1;
+  double h = sizing::checked_size(size, piece.start);
+  for (const Vec2 p : {piece.point(0.5 * piece.length()), piece.end})
+    h = std::fmin(h, sizing::checked_size(size, p));
+  const double step =
+      std::fmin(GeneraliseRules::arc_step, std::sqrt(8 * GeneraliseRules::arc_depth * h / piece.radius));
+  return std::max(1, static_cast<int>(std::ceil(std::fabs(piece.sweep) / step)));
+}
+
+double area_on_chord(double length, double sweep) {
+  if (sweep == 0)
+    return 0;
+  const double radius = length / (2 * std::sin(0.5 * std::fabs(sweep)));
+  return 0.5 * radius * radius * (sweep - std::sin(sweep));
+}
+
+std::optional<Partition> with_chords_along_curves(const Partition& given, const ArcRequest& request) {
+  const std::vector<InnerArc>& arcs = given.curves.arcs;
+  const CircularPieces circles(arcs);
+  if (circles.empty())
+    return std::nullopt;
+  std::vector<char> is_followed(arcs.size(), 0);
+  for (const InnerArc& arc : arcs)
+    if (arc.left == arc.right)
+      circles.mark_followed(arc, request.size, is_followed);
+  if (std::ranges::find(is_followed, 1) == is_followed.end())
+    return std::nullopt;
+  Partition made = given;
+  for (std::size_t k = 0; k < arcs.size(); ++k)
+    if (is_followed[k] != 0)
+      make_chords(made.curves.arcs[k], request);
+  return made;
+}
+
+} // namespace trime::generalise
