@@ -26,7 +26,7 @@ enum class Measure {
   area_share,          ///< smaller over larger area of two triangles with a common side
   link_cosine,         ///< |cos| of the angle between a flow link and the side that it crosses, see flow_link()
   link_length,         ///< length of a flow link over the mean root of the two areas
-  components,          ///< connected parts of the mesh
+  components,          ///< connected components of the mesh
   looped_open_boundary ///< outer boundary loops that are open all along
 };
 
