@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <initializer_list>
 #include <limits>
 #include <numeric>
@@ -21,6 +22,7 @@ using geometry::Vec2;
 using handover::LocalMesh;
 using Corners = std::array<Vec2, 3>;
 
+constexpr std::size_t measures = static_cast<std::size_t>(Measure::looped_open_boundary) + 1;
 constexpr double none = std::numeric_limits<double>::max();
 // [edges] Shorter links, as between two right-angled triangles that have one circumcentre, point where rounding makes
 // them point. Points that are rounded at 1e-9 edges turn a link of this length by at most the good cosine.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <string>
 #include <utility>
 
@@ -96,11 +97,11 @@ const char* solver_words() {
 }
 
 std::string_view name_of(Measure measure) {
-  constexpr std::array<std::string_view, measures> names{
+  constexpr std::string_view names[] = {
       "least_angle",    "largest_angle",      "skewness",   "boundary_edges",      "boundary_corners",
       "boundary_marks", "triangles_at_point", "cell_edges", "boundary_paths",      "area_share",
       "link_cosine",    "link_length",        "components", "looped_open_boundary"};
-  return names.at(static_cast<std::size_t>(measure));
+  return names[static_cast<std::size_t>(measure)];
 }
 
 } // namespace trime::acceptance

@@ -2,7 +2,6 @@
 // The rules by which models of coasts and oceans judge a mesh, as one table. It does not measure meshes.
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -29,9 +28,6 @@ enum class Measure {
   components,          ///< connected components of the mesh
   looped_open_boundary ///< outer boundary loops that are open all along
 };
-
-/// Number of the measures.
-inline constexpr std::size_t measures = static_cast<std::size_t>(Measure::looped_open_boundary) + 1;
 
 /// A rule of a solver: the measure must be at least, or at most, the limit.
 struct SolverRule {
