@@ -302,9 +302,7 @@ const Option table[] = {
      .range = positive,
      .meaning =
          "length over which the data are averaged before `grad(NAME)` takes their slope, in the unit of the mesh: "
-         "shorter waves are removed; at most 1000 cells of the raster; numbers that `fill` gives count like data; "
-         "none: "
-         "the slope of the data as they are"},
+         "shorter waves are removed; at most 1000 cells of the raster; none: the slope of the data as they are"},
 
     {.section = "sizing",
      .key = "type",
