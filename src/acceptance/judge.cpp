@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "acceptance/judge.hpp"
 
+#include "comm/agree.hpp"
 #include "core/angle.hpp"
 #include "trime/core/error.hpp"
 #include "trime/handover/local_mesh.hpp"
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <initializer_list>
 #include <limits>
 #include <numeric>
@@ -20,7 +22,13 @@ using geometry::Vec2;
 using handover::LocalMesh;
 using Corners = std::array<Vec2, 3>;
 
+constexpr std::size_t measures = static_cast<std::size_t>(Measure::looped_open_boundary) + 1;
 constexpr double none = std::numeric_limits<double>::max();
+// [edges] Shorter links, as between two right-angled triangles that have one circumcentre, point where rounding makes
+// them point. Points that are rounded at 1e-9 edges turn a link of this length by at most the good cosine.
+constexpr double least_direction = 1e-6;
+// [1] By this share of itself a limit may be missed: half a corner of 60 degrees has 30 degrees, up to rounding.
+constexpr double rounding = 1e-9;
 
 std::size_t at(LocalIndex index) {
   return static_cast<std::size_t>(index);
@@ -34,12 +42,14 @@ struct Tally {
   double item = none;   // number of the first item with the worst value; exact, since it is below 2^53
   Vec2 place{};
 
-  /// Larger values are worse.
-  double badness(double value) const { return rule.is_least ? -value : value; }
+  /// Larger values are worse. A value that is not a number, as of a triangle without an area, is infinitely bad.
+  double badness(double value) const {
+    return std::isnan(value) ? std::numeric_limits<double>::infinity() : rule.is_least ? -value : value;
+  }
 
   void add(double value, GlobalId number, Vec2 where) {
     ++measured;
-    broken += badness(value) > badness(rule.limit);
+    broken += badness(value) > badness(rule.limit) + rounding * std::fabs(rule.limit);
     const double bad = badness(value);
     const auto its = static_cast<double>(number);
     if (bad < worst || (bad == worst && its >= item))
@@ -61,7 +71,7 @@ Vec2 middle_of(const Corners& p) {
 double skewness_of(const Corners& p) {
   const double longest =
       std::max({geometry::length(p[1] - p[0]), geometry::length(p[2] - p[1]), geometry::length(p[0] - p[2])});
-  return longest / std::sqrt(area_of(p) / pi);
+  return longest / std::sqrt(area_of(p) / pi); // not a number if the triangle lies upside down
 }
 
 /// The circumcentre, or where the line to it from the centre of mass leaves the triangle.
@@ -80,9 +90,9 @@ Vec2 cell_centre(const Corners& p) {
   return mass + share * way;
 }
 
-/// One side of a local triangle, known by the lower of its end points, which this rank owns.
+/// One side of a local triangle at the lower of its end points.
 struct Side {
-  GlobalId low, high; // ends
+  GlobalId high; // the other end
   LocalIndex triangle;
   int k; // the side from the k-th corner
 };
@@ -119,7 +129,8 @@ private:
     for (Tally* tally : of_measure_[static_cast<std::size_t>(measure)])
       tally->add(value, number, where);
   }
-  std::vector<Side> sorted_sides() const;
+  template <class Visit>
+  void for_each_side(const Visit& visit) const;
   void add_pair(const Side& one, const Side& other) const;
 
   const LocalMesh& mesh_;
@@ -136,10 +147,11 @@ void Judge::triangles() const {
     const Corners p = corners(t);
     const GlobalId number = mesh_.triangle_ids[at(t)];
     const Vec2 middle = middle_of(p);
+    const bool has_area = area_of(p) > 0;
     if (wants({Measure::least_angle}))
-      add(Measure::least_angle, mesh::min_angle_degrees(p[0], p[1], p[2]), number, middle);
+      add(Measure::least_angle, has_area ? mesh::min_angle_degrees(p[0], p[1], p[2]) : NAN, number, middle);
     if (wants({Measure::largest_angle}))
-      add(Measure::largest_angle, mesh::max_angle_degrees(p[0], p[1], p[2]), number, middle);
+      add(Measure::largest_angle, has_area ? mesh::max_angle_degrees(p[0], p[1], p[2]) : NAN, number, middle);
     add(Measure::skewness, skewness_of(p), number, middle);
     add(Measure::boundary_edges, edges[at(t)], number, middle);
     double marks = 0, marked = 0;
@@ -170,29 +182,16 @@ void Judge::points() const {
   }
 }
 
-/// Both triangles of a side that ends at an owned point are local, so each side counts on one rank. Sides are sorted by
-/// their ends.
-std::vector<Side> Judge::sorted_sides() const {
-  std::vector<std::size_t> first(at(mesh_.owned_points) + 1, 0); // by lower end
-  const auto for_each = [&](const auto& visit) {
-    for (LocalIndex t = 0; t < static_cast<LocalIndex>(mesh_.triangles.size()); ++t)
-      for (int k = 0; k < 3; ++k) {
-        const LocalIndex a = mesh_.triangles[at(t)][at(k)], b = mesh_.triangles[at(t)][at((k + 1) % 3)];
-        const bool a_is_low = mesh_.global_id(a) < mesh_.global_id(b);
-        if (const LocalIndex low = a_is_low ? a : b; low < mesh_.owned_points)
-          visit(at(low), Side{mesh_.global_id(low), mesh_.global_id(a_is_low ? b : a), t, k});
-      }
-  };
-  for_each([&](std::size_t low, const Side&) { ++first[low + 1]; });
-  std::partial_sum(first.begin(), first.end(), first.begin());
-  std::vector<Side> sides(first.back());
-  std::vector<std::size_t> next(first.begin(), first.end() - 1);
-  for_each([&](std::size_t low, const Side& side) { sides[next[low]++] = side; });
-  for (std::size_t low = 0; low + 1 < first.size(); ++low)
-    std::sort(sides.begin() + static_cast<std::ptrdiff_t>(first[low]),
-              sides.begin() + static_cast<std::ptrdiff_t>(first[low + 1]),
-              [](const Side& one, const Side& other) { return one.high < other.high; });
-  return sides;
+/// Calls visit(low, 3 t + k) for the side from the k-th corner of each local triangle t, if this rank owns the lower
+/// end. Both triangles of such a side are local, so each side counts on one rank.
+template <class Visit>
+void Judge::for_each_side(const Visit& visit) const {
+  for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const LocalIndex a = mesh_.triangles[t][k], b = mesh_.triangles[t][(k + 1) % 3];
+      if (const LocalIndex low = mesh_.global_id(a) < mesh_.global_id(b) ? a : b; low < mesh_.owned_points)
+        visit(at(low), static_cast<std::int64_t>(3 * t + k));
+    }
 }
 
 void Judge::add_pair(const Side& one, const Side& other) const {
@@ -204,22 +203,40 @@ void Judge::add_pair(const Side& one, const Side& other) const {
   const Vec2 far = mesh_.points[at(across[at((other.k + 2) % 3)])];
   const Vec2 d = periods_.any() ? periods_.nearest_image(far, middle) : far;
   const GlobalId number = 3 * mesh_.triangle_ids[at(one.triangle)] + one.k;
-  const double here = area_of(p), there = area_of({side[1], side[0], d});
-  add(Measure::area_share, std::fmin(here, there) / std::fmax(here, there), number, middle);
+  const double here = area_of(p), there = area_of({side[1], side[0], d}), larger = std::fmax(here, there);
+  add(Measure::area_share, larger > 0 ? std::fmin(here, there) / larger : 0, number, middle);
   const FlowLink link = flow_link(side, p[(k + 2) % 3], d);
-  add(Measure::link_cosine, link.cosine, number, middle);
+  if (link.cosine)
+    add(Measure::link_cosine, *link.cosine, number, middle);
   add(Measure::link_length, link.length, number, middle);
 }
 
+/// Pairs the sides at each point that have the same other end.
 void Judge::sides() const {
   if (!wants({Measure::area_share, Measure::link_cosine, Measure::link_length}))
     return;
-  const std::vector<Side> sides = sorted_sides();
-  for (std::size_t k = 0; k + 1 < sides.size(); ++k) {
-    const Side &one = sides[k], &other = sides[k + 1];
-    const bool is_first = mesh_.triangle_ids[at(one.triangle)] < mesh_.triangle_ids[at(other.triangle)];
-    if (one.low == other.low && one.high == other.high)
-      add_pair(is_first ? one : other, is_first ? other : one);
+  std::vector<std::size_t> first(at(mesh_.owned_points) + 1, 0); // by lower end
+  for_each_side([&](std::size_t low, std::int64_t) { ++first[low]; });
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<std::int64_t> all(first.back());
+  for_each_side([&](std::size_t low, std::int64_t side) { all[--first[low]] = side; });
+  std::vector<Side> around;
+  for (std::size_t low = 0; low + 1 < first.size(); ++low) {
+    around.clear();
+    for (std::size_t n = first[low]; n < first[low + 1]; ++n) {
+      const auto t = static_cast<LocalIndex>(all[n] / 3);
+      const auto k = static_cast<int>(all[n] % 3);
+      const GlobalId a = mesh_.global_id(mesh_.triangles[at(t)][at(k)]);
+      const GlobalId b = mesh_.global_id(mesh_.triangles[at(t)][at((k + 1) % 3)]);
+      around.push_back({std::max(a, b), t, k});
+    }
+    std::ranges::sort(around, {}, &Side::high);
+    for (std::size_t n = 0; n + 1 < around.size(); ++n) {
+      const Side &one = around[n], &other = around[n + 1];
+      const bool is_first = mesh_.triangle_ids[at(one.triangle)] < mesh_.triangle_ids[at(other.triangle)];
+      if (one.high == other.high)
+        add_pair(is_first ? one : other, is_first ? other : one);
+    }
   }
 }
 
@@ -299,12 +316,15 @@ std::string words_of(Measure measure) {
 } // namespace
 
 FlowLink flow_link(const std::array<Vec2, 2>& side, Vec2 c, Vec2 d) {
-  const Corners left{side[0], side[1], c}, right{side[1], side[0], d};
-  const Vec2 link = cell_centre(right) - cell_centre(left), along = side[1] - side[0];
+  const Vec2 origin = side[0], along = side[1] - origin; // near the triangles, where coordinates round least
+  const Corners left{Vec2{}, along, c - origin}, right{along, Vec2{}, d - origin};
+  const Vec2 link = cell_centre(right) - cell_centre(left);
   const double length = geometry::length(link), edge = geometry::length(along);
   const double root = 0.5 * (std::sqrt(area_of(left)) + std::sqrt(area_of(right)));
-  const double dot = link.x * along.x + link.y * along.y;
-  return {length > 0 ? std::fabs(dot) / (length * edge) : 0, length / root};
+  FlowLink result{std::nullopt, length / root};
+  if (!(length <= least_direction * edge))
+    result.cosine = std::fabs(geometry::dot(link, along)) / (length * edge);
+  return result;
 }
 
 std::vector<Verdict> judge(const mesh::DistributedMesh& mesh, std::span<const Solver> solvers,
@@ -315,9 +335,11 @@ std::vector<Verdict> judge(const mesh::DistributedMesh& mesh, std::span<const So
   const LocalMesh local = handover::make_local_mesh(comm, mesh);
   const std::vector<double> marks = marks_of(local, boundary.open_parts, comm);
   const Judge judge(local, boundary.periods, marks, tallies);
-  judge.triangles();
-  judge.points();
-  judge.sides();
+  comm::run_agreed(comm, [&] { // the memory may not suffice
+    judge.triangles();
+    judge.points();
+    judge.sides();
+  });
   if (comm.is_root())
     add_facts(boundary, tallies);
   return combined(tallies, comm);

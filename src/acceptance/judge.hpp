@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,7 +21,8 @@ struct Verdict {
   SolverRule rule;
   std::int64_t measured = 0; ///< triangles, points or pairs that were measured
   std::int64_t broken = 0;   ///< number of them that break the rule
-  double worst = 0;          ///< the worst value; the limit if nothing was measured
+  double worst = 0;          ///< the worst value; the limit if nothing was measured; infinite, with the sign of the
+                             ///< worse side, if one is not a number, as of a triangle without an area
   geometry::Vec2 place;      ///< place of the first item with the worst value; NaN if has_place() is false
 
   bool holds() const { return broken == 0; }
@@ -40,14 +42,16 @@ struct BoundaryFacts {
 /// @brief Measures the mesh by all rules of the solvers. The result has the same bits on any number of ranks.
 /// @param solvers a solver that is named twice counts once
 /// @note Collective. Cost: O(n) for n points on a rank, with the exchanges of make_local_mesh(), the ghosts'
-/// values once, and three small reductions. Memory: 24 bytes for each side of a triangle, and a LocalMesh.
+/// values once, and three small reductions. Memory: 56 bytes for each point, and a LocalMesh. If it does not suffice on
+/// one rank, all ranks throw.
 std::vector<Verdict> judge(const mesh::DistributedMesh& mesh, std::span<const Solver> solvers,
                            const BoundaryFacts& boundary, const comm::Communicator& comm);
 
 /// The centres of two cells of D-Flow FM, and the side between them.
 struct FlowLink {
-  double cosine = 0; ///< |cos| of the angle between the link and the side; 0 if the link has no length
-  double length = 0; ///< distance of the centres, over the mean root of the two areas
+  std::optional<double> cosine; ///< |cos| of the angle between the link and the side; none if the link is shorter than
+                                ///< 1e-6 of the side, since rounding then decides its direction
+  double length = 0;            ///< distance of the centres, over the mean root of the two areas
 };
 /// @brief Returns the link across the side ab between the triangles abc and bad. The centre of a cell is its
 /// circumcentre; if that lies outside of the triangle, it is the place where the line to it from the centre of mass

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <string>
 #include <utility>
 
@@ -34,6 +35,8 @@ constexpr const char* finer = "use smaller triangles or a smoother size there";
 constexpr const char* gentler = "use a smaller gradation in [sizing]";
 constexpr const char* corner =
     "set split_ears = true in [meshing]; where the corner has less than 60 degrees, cut it off or make it wider";
+constexpr const char* narrow =
+    "use smaller triangles in narrow channels; in corners of 60 degrees or more, split_ears = true in [meshing] helps";
 constexpr const char* open_end = "let the open boundary meet the land at a right angle, or use smaller triangles there";
 constexpr const char* untouched = "move the boundaries apart";
 
@@ -42,14 +45,13 @@ constexpr SolverRule table[] = {
     {Solver::adcirc, Measure::largest_angle, false, sms_largest_angle, false, "triangles", finer},
     {Solver::adcirc, Measure::triangles_at_point, false, adcirc_most_triangles, false, "points", gentler},
     {Solver::adcirc, Measure::boundary_paths, false, 1, true, "points", untouched},
-    {Solver::adcirc, Measure::components, false, 1, false, "parts of the mesh",
-     "set components = largest in [meshing]"},
+    {Solver::adcirc, Measure::components, false, 1, false, "components", "set components = largest in [meshing]"},
     {Solver::schism, Measure::skewness, false, schism_skewness, false, "triangles", finer},
     {Solver::schism, Measure::boundary_edges, false, 2, true, "triangles", "set components = largest in [meshing]"},
     {Solver::schism, Measure::boundary_paths, false, 1, true, "points", untouched},
     {Solver::schism, Measure::looped_open_boundary, false, 0, true, "loops",
      "give a part of the boundary a name that open_boundary in [output] does not have"},
-    {Solver::telemac, Measure::boundary_corners, false, 2, false, "triangles", corner},
+    {Solver::telemac, Measure::boundary_corners, false, 2, false, "triangles", narrow},
     {Solver::telemac, Measure::boundary_paths, false, 1, true, "points", untouched},
     {Solver::fvcom, Measure::least_angle, true, fvcom_least_angle, false, "triangles", finer},
     {Solver::fvcom, Measure::largest_angle, false, fvcom_largest_angle, false, "triangles", finer},
@@ -95,11 +97,11 @@ const char* solver_words() {
 }
 
 std::string_view name_of(Measure measure) {
-  constexpr std::array<std::string_view, measures> names{
+  constexpr std::string_view names[] = {
       "least_angle",    "largest_angle",      "skewness",   "boundary_edges",      "boundary_corners",
       "boundary_marks", "triangles_at_point", "cell_edges", "boundary_paths",      "area_share",
       "link_cosine",    "link_length",        "components", "looped_open_boundary"};
-  return names.at(static_cast<std::size_t>(measure));
+  return names[static_cast<std::size_t>(measure)];
 }
 
 } // namespace trime::acceptance

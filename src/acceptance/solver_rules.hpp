@@ -2,7 +2,6 @@
 // The rules by which models of coasts and oceans judge a mesh, as one table. It does not measure meshes.
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -26,12 +25,9 @@ enum class Measure {
   area_share,          ///< smaller over larger area of two triangles with a common side
   link_cosine,         ///< |cos| of the angle between a flow link and the side that it crosses, see flow_link()
   link_length,         ///< length of a flow link over the mean root of the two areas
-  components,          ///< connected parts of the mesh
+  components,          ///< connected components of the mesh
   looped_open_boundary ///< outer boundary loops that are open all along
 };
-
-/// Number of the measures.
-constexpr std::size_t measures = static_cast<std::size_t>(Measure::looped_open_boundary) + 1;
 
 /// A rule of a solver: the measure must be at least, or at most, the limit.
 struct SolverRule {

@@ -30,13 +30,16 @@ acceptance::BoundaryFacts facts_of(const AcceptanceInput& input, const meshing::
 
 mesh::Check check_of(const Verdict& verdict) {
   const acceptance::SolverRule& rule = verdict.rule;
-  return {fmt::format("{}_{}", acceptance::word_of(rule.solver), acceptance::name_of(rule.measure)), 0,
-          static_cast<double>(verdict.broken), verdict.holds(),
+  return {check_name(rule), 0, static_cast<double>(verdict.broken), verdict.holds(),
           fmt::format("{} that {} refuses: {} {:g} is allowed", rule.breakers, acceptance::word_of(rule.solver),
                       rule.is_least ? "at least" : "at most", rule.limit)};
 }
 
 } // namespace
+
+std::string check_name(const acceptance::SolverRule& rule) {
+  return fmt::format("{}_{}", acceptance::word_of(rule.solver), acceptance::name_of(rule.measure));
+}
 
 std::vector<Verdict> judge_mesh(const AcceptanceInput& input, meshing::MeshResult& result,
                                 const comm::Communicator& comm) {

@@ -7,6 +7,7 @@
 #include "trime/io/metadata.hpp"
 #include "trime/meshing/options.hpp"
 
+#include <string>
 #include <vector>
 
 namespace trime::app {
@@ -22,6 +23,9 @@ struct AcceptanceInput {
 /// number of triangles, points or sides that break it must be 0. Collective. Cost: see acceptance::judge().
 std::vector<acceptance::Verdict> judge_mesh(const AcceptanceInput& input, meshing::MeshResult& result,
                                             const comm::Communicator& comm);
+
+/// Returns the name of the check in a mesh file for a rule whose breaking makes the model refuse the mesh.
+std::string check_name(const acceptance::SolverRule& rule);
 
 /// Prints one line for each solver, and a warning for each broken rule.
 void print_verdicts(const std::vector<acceptance::Verdict>& verdicts, Log& log);

@@ -302,7 +302,7 @@ const Option table[] = {
      .range = positive,
      .meaning =
          "length over which the data are averaged before `grad(NAME)` takes their slope, in the unit of the mesh: "
-         "shorter waves are removed; none: the slope of the data as they are"},
+         "shorter waves are removed; at most 1000 cells of the raster; none: the slope of the data as they are"},
 
     {.section = "sizing",
      .key = "type",
@@ -361,6 +361,13 @@ const Option table[] = {
      .meaning = "no edge of the mesh is shorter: sizes are raised where this takes it, and the shape is simplified "
                 "there; a mesh with a shorter edge ends with exit code 5"},
 
+    {.section = "size.NAME",
+     .key = "expression",
+     .kind = OptionKind::text,
+     .meaning =
+         "one more size, as a formula like `expression` in [sizing]; at each place the smallest one of all sizes "
+         "counts. With `type = uniform` only the sections [size.NAME] count"},
+
     {.section = "meshing",
      .key = "method",
      .kind = OptionKind::word,
@@ -369,13 +376,6 @@ const Option table[] = {
      .meaning = "how the points move: `distmesh`: by repulsive forces along the edges; `cvt`: to the centroids of "
                 "their Voronoi cells (centroidal Voronoi tessellation; `cvd` means the same); `hybrid`: by both, and "
                 "finally towards equilateral triangles"},
-    {.section = "size.NAME",
-     .key = "expression",
-     .kind = OptionKind::text,
-     .meaning =
-         "one more size, as a formula like `expression` in [sizing]; at each place the smallest one of all sizes "
-         "counts. With `type = uniform` only the sections [size.NAME] count"},
-
     {.section = "meshing",
      .key = "points",
      .kind = OptionKind::integer,

@@ -307,6 +307,7 @@ private:
   io::WrittenFiles publish(const Provenance& provenance, const meshing::MeshResult& result, const SizeSummary& sizes);
   void add_depths(meshing::MeshResult& result);
   void judge(meshing::MeshResult& result);
+  SizeSummary summarize(const meshing::MeshResult& result);
   void print_results(const RunFacts& facts) const;
 
   const Job& job_;
@@ -389,6 +390,14 @@ void MeshRun::judge(meshing::MeshResult& result) {
       result, job_.comm);
 }
 
+/// Summarises the size of the mesh, and how often each of several sizes is the smallest one. Collective.
+SizeSummary MeshRun::summarize(const meshing::MeshResult& result) {
+  const auto timing = job_.timers.scope("size field");
+  const std::string shares = shares_of_sizes(size_, result.mesh, job_.comm);
+  return summarize_size(shares.empty() ? size_.description : fmt::format("{}: {}", size_.description, shares),
+                        result.mesh, job_.comm);
+}
+
 io::Metadata MeshRun::describe(const Provenance& provenance, const meshing::MeshResult& result,
                                const SizeSummary& sizes, const Measurements& measured) const {
   io::Metadata metadata = describe_run(provenance, result, sizes, measured);
@@ -448,9 +457,7 @@ ExitCode MeshRun::run() {
   meshing::MeshResult result = make_mesh(provenance);
   add_depths(result);
   judge(result);
-  const std::string shares = shares_of_sizes(size_, result.mesh, job_.comm);
-  const SizeSummary sizes = summarize_size(
-      shares.empty() ? size_.description : fmt::format("{}: {}", size_.description, shares), result.mesh, job_.comm);
+  const SizeSummary sizes = summarize(result);
   keeper_.go_to_the_end();
   const io::WrittenFiles files = job_.options.write ? publish(provenance, result, sizes) : io::WrittenFiles{};
   const Measurements measured = gather_measurements(job_.timers, job_.comm);

@@ -125,6 +125,13 @@ void warn(const StoredShape& shape, const refinement::BoundaryMiddles& middles, 
                 middles.refused, all);
 }
 
+/// The rules need names of the boundary and more from the run that made the mesh, so nothing measures them here.
+void warn_of_rules(const Metadata& metadata, Log& log) {
+  if (io::find_group(metadata, "accept"))
+    log.warning("the mesh was measured by the rules of 'accept' in [output], but the refined mesh is not: its file has "
+                "neither these rules nor their checks");
+}
+
 /// Returns the Voronoi cells if the config asks for them and if they are right; if they are not, a warning says so.
 std::vector<io::ExtraGroup> cells_of(const mesh::DistributedMesh& mesh, const Metadata& metadata,
                                      const comm::Communicator& comm, Log& log) {
@@ -164,6 +171,7 @@ ExitCode refine(const CommandLine& line, io::RunFiles* files, const comm::Commun
     refined = refinement::refine(comm, mesh, surroundings);
   }
   warn(shape, refined.middles, from, log);
+  warn_of_rules(metadata, log);
   options.vtkhdf = shape.vtkhdf;
   options.xdmf = shape.xdmf;
   options.run_files = files;

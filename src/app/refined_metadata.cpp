@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/refined_metadata.hpp"
 
+#include "acceptance/solver_rules.hpp"
+#include "app/acceptance_report.hpp"
 #include "app/provenance.hpp"
 #include "core/thread_loop.hpp"
 #include "record/groups.hpp"
@@ -108,11 +110,19 @@ MetadataGroup regions_group(MetadataGroup group, const std::vector<refinement::R
   return group;
 }
 
+/// Does the check hold a rule of a model, see judge_mesh?
+bool is_rule(const mesh::Check& check) {
+  return std::ranges::any_of(acceptance::solver_rules(), [&](const acceptance::SolverRule& rule) {
+    return rule.refuses && check.name == check_name(rule);
+  });
+}
+
 /// Adds the failed checks of the mesh that was refined, unless the refined mesh has a check of the same name: a
-/// boundary that lies too far from the shape still does.
+/// boundary that lies too far from the shape still does. Rules of models are left out, since other triangles may keep
+/// them.
 mesh::Checks with_failed(mesh::Checks checks, const Metadata& metadata) {
   for (const mesh::Check& check : record::checks_of(metadata))
-    if (!check.passed && std::ranges::find(checks, check.name, &mesh::Check::name) == checks.end())
+    if (!check.passed && !is_rule(check) && std::ranges::find(checks, check.name, &mesh::Check::name) == checks.end())
       checks.push_back(check);
   return checks;
 }
@@ -135,7 +145,8 @@ std::vector<io::Text> texts(const Metadata& metadata, const CommandLine& line) {
 } // namespace
 
 std::vector<std::string> groups_to_refine() {
-  return {"checks", "tags", "history", "rings", "sharp_corners", "curves", "interfaces", "regions", "normalization"};
+  return {"checks", "tags",       "history", "rings",         "sharp_corners",
+          "curves", "interfaces", "regions", "normalization", "accept"};
 }
 
 bool says_complete(const Metadata& metadata) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/size_builder.hpp"
 
+#include "comm/agree.hpp"
+#include "core/thread_loop.hpp"
 #include "sizing/boundary_distance.hpp"
 #include "sizing/distance_size.hpp"
 #include "sizing/region_size.hpp"
@@ -10,9 +12,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 
 namespace trime::app {
 namespace {
+
+constexpr int points_at_once = 1024; // by one thread
 
 BuiltSize automatic_size(const RunOptions& options, const geometry::Domain& domain, const comm::Communicator& comm) {
   const geometry::Boundary& boundary = domain.boundary();
@@ -76,8 +82,8 @@ BuiltSize expression_size(const RunOptions& options, const geometry::Domain& dom
   return size;
 }
 
-/// The smallest one of the size so far and of the sections [size.NAME]. A uniform size has no say: `max_size` bounds
-/// all of them.
+/// The smallest one of the size so far and of the sections [size.NAME]. A uniform size does not count: `max_size`
+/// bounds all of them.
 void lower_by_sections(const RunOptions& options, const geometry::Domain& domain, const std::vector<BuiltField>& fields,
                        BuiltSize& size) {
   const std::vector<NamedFormula>& more = options.sizing.more;
@@ -183,8 +189,14 @@ std::string shares_of_sizes(const BuiltSize& size, const mesh::DistributedMesh& 
   if (size.minimum == nullptr)
     return {};
   std::vector<std::int64_t> points(size.names.size(), 0);
-  for (const geometry::Vec2 point : mesh.points)
-    ++points[size.minimum->ruler(point)];
+  comm::run_agreed(comm, [&] {
+    PerThread<std::vector<std::int64_t>> counts(points);
+    thread_loop(std::ssize(mesh.points), points_at_once, [&](std::ptrdiff_t k, int thread) {
+      ++counts[thread][size.minimum->ruler(mesh.points[static_cast<std::size_t>(k)])];
+    });
+    for (const std::vector<std::int64_t>& its : counts)
+      std::ranges::transform(points, its, points.begin(), std::plus<>());
+  });
   comm.sum(points);
   std::string text;
   for (std::size_t k = 0; k < points.size(); ++k)

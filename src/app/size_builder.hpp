@@ -30,7 +30,8 @@ struct BuiltSize {
 };
 
 /// @brief Returns how many percent of the points have each of several sizes as the smallest one, such as "[sizing] 60
-/// %, [size.wave] 40 % of the points"; empty if there is one size. Collective. Cost: one evaluation per point and size.
+/// %, [size.wave] 40 % of the points"; empty if there is one size. Collective. Cost: one evaluation per point and size,
+/// by all threads.
 std::string shares_of_sizes(const BuiltSize& size, const mesh::DistributedMesh& mesh, const comm::Communicator& comm);
 
 /// Makes a formula that may use data, and distances to the boundary and its parts.

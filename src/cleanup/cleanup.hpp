@@ -16,7 +16,7 @@ struct CleanupOptions {
   double tolerance = 0;     ///< [asked sizes] largest distance of a boundary edge from corners between its ends; 0: no
                             ///< boundary edge may leave out a corner
   double bad_alpha = CleanupRules::bad_alpha; ///< triangles with a larger alpha are improved
-  bool split_ears = false;                    ///< see Patch::ear_alpha
+  bool split_ears = false; ///< divide triangles with two boundary edges that meet at 60 degrees or more
 };
 
 /// @brief Improves bad triangles of a stage in rounds. It tries changes and keeps those that improve the triangles,

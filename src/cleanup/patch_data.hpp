@@ -88,7 +88,8 @@ struct PatchOptions {
   double bad_alpha = CleanupRules::bad_alpha;
   double operate_alpha = CleanupRules::operate_alpha;
   double first_alpha = CleanupRules::first_alpha;
-  double ear_alpha = 0; ///< see Patch
+  double ear_alpha =
+      0; ///< what triangles with two boundary edges add to their alpha, so that they are divided; 0: nothing
 };
 
 /// Returns whether the angle at v between two other places is at least 60 degrees.

@@ -143,12 +143,30 @@ void read_around(RasterFile& file, const Window& window, std::int64_t around, st
   }
 }
 
+/// @throws GeometryError if the values would be averaged over too many cells
+void check_smooth(const Cut& cut, const FieldRequest& request) {
+  const auto row_at = [&](std::int64_t row) { return cut.y.at(static_cast<double>(row)); };
+  const Axis rows{row_at(cut.window.first_row), cut.y.step, cut.window.rows};
+  const SmoothReach reach = reach_of(request, cut.x, rows);
+  double in_row = 0; // in the mean, since few rows are near a pole
+  for (std::int64_t row = 0; row < rows.count; ++row)
+    in_row += reach.in_row(row) / static_cast<double>(rows.count);
+  const double widest = std::fmax(reach.in_column, in_row);
+  if (widest > most_smooth_cells)
+    throw GeometryError(fmt::format("{}: expected a length 'smooth' of at most {:g} cells of the raster, found {:g}, "
+                                    "which are {:.4g} cells; it has the unit of the mesh. Take a smaller length, or a "
+                                    "coarser raster: gdal_translate -outsize 25% 25%",
+                                    request.path, most_smooth_cells, request.smooth, widest));
+}
+
 Raster read_cut(RasterFile& file, const Cut& cut, const FieldRequest& request) {
   const auto values = static_cast<double>(cut.window.columns) * static_cast<double>(cut.window.rows);
   if (values > most_values)
-    throw GeometryError(fmt::format("{}: expected at most {:.0e} values around the shape, since each rank holds all of "
-                                    "them, found {} x {}; make a coarser raster: gdal_translate -outsize 25% 25%",
-                                    request.path, most_values, cut.window.columns, cut.window.rows));
+    throw GeometryError(
+        fmt::format("{}: expected at most {:.0e} values around the shape, since each rank holds all of "
+                    "them, found {} x {}; make a coarser raster: gdal_translate -outsize 25% 25%{}",
+                    request.path, most_values, cut.window.columns, cut.window.rows,
+                    request.smooth > 0 ? ", or take a smaller 'smooth', which adds values around" : ""));
   Raster raster{{cut.x.at(static_cast<double>(cut.window.first_column)), cut.x.step, cut.window.columns},
                 {cut.y.at(static_cast<double>(cut.window.first_row)), cut.y.step, cut.window.rows}};
   const bool fits =
@@ -225,6 +243,7 @@ Raster read_on_root(const FieldRequest& request, const geometry::Boundary& bound
   const Cut cut = cut_of(*file, outline, request);
   if (!request.outside_is_nearest)
     check_cover(outline, cut.cells, request.path);
+  check_smooth(cut, request);
   Raster raster = read_cut(*file, cut, request);
   if (request.fill == Fill::refuse)
     check_values(outline, raster, cut, *file, request.path);

@@ -22,7 +22,8 @@ struct FieldRequest {
   Fill fill = Fill::refuse;
   double fill_value = 0;
   bool outside_is_nearest = false; ///< places outside of the raster get the nearest value; otherwise they are an error
-  double smooth = 0;               ///< length over which gradients are smoothed; 0: they are not
+  double smooth = 0;               ///< length over which gradients are smoothed; 0: they are not. Values by Fill::value
+                                   ///< count like those of the file, values by Fill::nearest do not
   double per_degree = 0;           ///< this length in a degree of latitude, if the file has degrees; otherwise 0
   double period = 0;               ///< period of x in the file: 360 if it is a longitude, otherwise 0
 };
@@ -39,6 +40,10 @@ struct ReadField {
 /// Largest number of values that a field may have, because each rank holds all of them.
 inline constexpr double most_values = 4e8;
 
+/// [cells] Largest half width of the weights of a smooth copy, along rows in the mean of all rows. Each of its values
+/// then costs 4000 products in the mean; a length in another unit, such as metres for kilometres, would cost hours.
+inline constexpr double most_smooth_cells = 1000;
+
 /// @brief Returns the box of the raster's cells in the coordinates of the file. Only rank 0 reads. Collective.
 /// @throws FileError, GeometryError, ConfigError on all ranks
 geometry::Box raster_box(const FieldRequest& request, const comm::Communicator& comm);
@@ -47,7 +52,7 @@ geometry::Box raster_box(const FieldRequest& request, const comm::Communicator& 
 /// Collective. Cost on each rank: 4 or 8 bytes for each value of the cut, and a bit more where values were filled;
 /// twice that with a smooth copy, which each rank makes by all its threads, see smoothed().
 /// @throws FileError, GeometryError, ConfigError on all ranks: for a damaged file, a shape that the raster does not
-/// cover, a needed place without data, and more than most_values values
+/// cover, a needed place without data, more than most_values values, and more than most_smooth_cells cells
 ReadField read_field(const FieldRequest& request, const geometry::Boundary& boundary, const ToFile& to_file,
                      const comm::Communicator& comm);
 

@@ -10,7 +10,7 @@
 namespace trime::fields {
 namespace {
 
-constexpr std::int64_t least_rows = 64; // in a block; with few rows, those around a block would be summed too often
+constexpr std::int64_t sums_at_once = std::int64_t{1} << 22; // 64 MB
 
 /// A weighted sum of values, and the sum of their weights.
 struct Weighted {
@@ -25,12 +25,20 @@ std::vector<double> weights_of(double width, std::int64_t most) {
   return weights;
 }
 
+/// Sums of columns [first, end) along all rows.
+struct Strip {
+  std::int64_t first = 0, end = 0;
+  std::vector<Weighted>& sums;
+
+  Weighted* row(std::int64_t row) const { return sums.data() + row * (end - first); }
+};
+
 /// Sums along one row.
-void sum_row(const Raster& raster, std::int64_t row, double width, Weighted* sums) {
+void sum_row(const Raster& raster, std::int64_t row, double width, const Strip& strip) {
   const std::vector<double> weights = weights_of(width, raster.x.count);
   const auto reach = std::ssize(weights) - 1;
-  for (std::int64_t column = 0; column < raster.x.count; ++column) {
-    Weighted& here = sums[column];
+  for (std::int64_t column = strip.first; column < strip.end; ++column) {
+    Weighted& here = strip.row(row)[column - strip.first];
     here = {};
     const std::int64_t end = std::min(raster.x.count - 1, column + reach);
     for (std::int64_t other = std::max<std::int64_t>(0, column - reach); other <= end; ++other) {
@@ -44,22 +52,14 @@ void sum_row(const Raster& raster, std::int64_t row, double width, Weighted* sum
   }
 }
 
-/// Rows of sums, [first, end).
-struct Block {
-  std::int64_t first = 0, end = 0;
-  std::vector<Weighted> sums{};
-
-  const Weighted* row(std::int64_t row, std::int64_t columns) const { return sums.data() + (row - first) * columns; }
-};
-
 /// Joins the sums of the rows around a row, and sets its values.
-void join_rows(const Block& block, const std::vector<double>& weights, std::int64_t row, Raster& result) {
-  const std::int64_t columns = result.x.count, reach = std::ssize(weights) - 1;
-  const std::int64_t first = std::max(block.first, row - reach), end = std::min(block.end, row + reach + 1);
+void join_rows(const Strip& strip, const std::vector<double>& weights, std::int64_t row, Raster& result) {
+  const std::int64_t columns = strip.end - strip.first, reach = std::ssize(weights) - 1;
+  const std::int64_t first = std::max<std::int64_t>(0, row - reach), end = std::min(result.y.count, row + reach + 1);
   std::vector<Weighted> joined(static_cast<std::size_t>(columns));
   for (std::int64_t other = first; other < end; ++other) {
     const double weight = weights[static_cast<std::size_t>(std::abs(other - row))];
-    const Weighted* sums = block.row(other, columns);
+    const Weighted* sums = strip.row(other);
     for (std::int64_t column = 0; column < columns; ++column) {
       Weighted& here = joined[static_cast<std::size_t>(column)];
       here.sum += weight * sums[column].sum;
@@ -68,7 +68,7 @@ void join_rows(const Block& block, const std::vector<double>& weights, std::int6
   }
   for (std::int64_t column = 0; column < columns; ++column)
     if (const Weighted& here = joined[static_cast<std::size_t>(column)]; here.weight > 0)
-      result.set(result.index(column, row), here.sum / here.weight);
+      result.set(result.index(strip.first + column, row), here.sum / here.weight);
 }
 
 } // namespace
@@ -77,17 +77,13 @@ Raster smoothed(const Raster& raster, const SmoothReach& reach) {
   Raster result = raster;
   result.filled.clear();
   const std::int64_t rows = raster.y.count, columns = raster.x.count;
+  const std::int64_t at_once = std::clamp<std::int64_t>(sums_at_once / rows, 1, columns);
   const std::vector<double> weights = weights_of(reach.in_column, rows);
-  const std::int64_t around = std::ssize(weights) - 1, at_once = std::max(least_rows, around);
-  for (std::int64_t first = 0; first < rows; first += at_once) {
-    const std::int64_t end = std::min(rows, first + at_once);
-    Block block{std::max<std::int64_t>(0, first - around), std::min(rows, end + around)};
-    block.sums.resize(static_cast<std::size_t>((block.end - block.first) * columns));
-    thread_loop(block.end - block.first, 1, [&](std::ptrdiff_t k, int) {
-      const std::int64_t row = block.first + k;
-      sum_row(raster, row, reach.in_row(row), block.sums.data() + k * columns);
-    });
-    thread_loop(end - first, 1, [&](std::ptrdiff_t k, int) { join_rows(block, weights, first + k, result); });
+  std::vector<Weighted> sums(static_cast<std::size_t>(at_once * rows));
+  for (std::int64_t first = 0; first < columns; first += at_once) {
+    const Strip strip{first, std::min(columns, first + at_once), sums};
+    thread_loop(rows, 1, [&](std::ptrdiff_t row, int) { sum_row(raster, row, reach.in_row(row), strip); });
+    thread_loop(rows, 1, [&](std::ptrdiff_t row, int) { join_rows(strip, weights, row, result); });
   }
   return result;
 }

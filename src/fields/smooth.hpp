@@ -21,8 +21,8 @@ struct SmoothReach {
 /// no weight; a value whose weights are all 0 stays. Waves shorter than the half width keep at most 5 % of their
 /// height, waves of twice that length 41 %, and of four times 81 %. A plane stays a plane away from the border.
 ///
-/// Blocks of rows are smoothed one after the other, the rows of a block by all threads. The result has the same bits
-/// for any number of threads. Cost: O(values * (a + b)). Memory: the result, and 16 bytes for each value of a block.
+/// Strips of columns are smoothed one after the other, the rows of a strip by all threads. The result has the same bits
+/// for any number of threads. Cost: O(values * (a + b)). Memory: the result, and 64 MB or 16 bytes for each row.
 /// @pre both half widths are finite and not negative
 Raster smoothed(const Raster& raster, const SmoothReach& reach);
 

@@ -247,6 +247,11 @@ class CoastFormats(WorkspaceCase):
                                                     "schism refuses the mesh: give a part")
         self.assertEqual(table["broken"][table["rule"] == "looped_open_boundary"].tolist(), [1])
         self.assertEqual(check(self.directory / "bay.h5")[0], 0)
+        done = run("refine", self.directory / "bay.h5", self.directory / "fine.h5", ranks=2)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn("has neither these rules nor their checks", done.stdout + done.stderr)
+        with h5py.File(self.directory / "fine.h5") as file:
+            self.assertNotIn("accept", file["trime_mpi"])
         done = run(self.directory / "bay.ini", "output.accept=fvcomm")
         self.assertEqual(done.returncode, 2)
         self.assertIn("fvcom", done.stderr)

@@ -134,6 +134,7 @@ class Fields(unittest.TestCase):
             sizes = self.mesh(work, "h.asc", formula)[2]
             self.assertLess(sizes.mean(), 0.02)
             self.refuse(work, "h.asc", "smooth", overrides=["field.h.smooth=-1"])
+            self.refuse(work, "h.asc", "'smooth' of at most 1000 cells", "1250 cells", overrides=["field.h.smooth=25"])
 
     def test_several_sizes(self):
         """At each place the smallest one of all sizes counts."""

@@ -98,14 +98,18 @@ Verdict judged(const mesh::DistributedMesh& whole, Solver solver, Measure measur
 
 TEST(Judge, FindsNoFaultInAHexagon) {
   const comm::Communicator comm = comm::Communicator::world();
-  for (const Verdict& verdict : judge(test::slabs_of(wheel(6), comm, 1), all_solvers, {}, comm))
+  const std::vector<Verdict> verdicts = judge(test::slabs_of(wheel(6), comm, 1), all_solvers, {}, comm);
+  EXPECT_EQ(verdicts.size(), solver_rules().size());
+  for (const Verdict& verdict : verdicts)
     EXPECT_TRUE(verdict.holds()) << text_of(verdict);
 }
 
 TEST(Judge, JudgesOnlyForTheSolversThatAreNamed) {
   const comm::Communicator comm = comm::Communicator::world();
   const std::array twice{Solver::mpas, Solver::mpas};
-  for (const Verdict& verdict : judge(test::slabs_of(wheel(6), comm, 1), twice, {}, comm))
+  const std::vector<Verdict> verdicts = judge(test::slabs_of(wheel(6), comm, 1), twice, {}, comm);
+  EXPECT_EQ(std::ssize(verdicts), std::ranges::count(solver_rules(), Solver::mpas, &SolverRule::solver));
+  for (const Verdict& verdict : verdicts)
     EXPECT_EQ(verdict.rule.solver, Solver::mpas);
   EXPECT_TRUE(judge(test::slabs_of(wheel(6), comm, 1), {}, {}, comm).empty());
 }
@@ -196,16 +200,59 @@ TEST(Judge, MeasuresFlowLinksAsDFlowFMDoes) {
   EXPECT_NEAR(small.worst, 0, 1e-15);
   // Between equilateral triangles with side 1, centres are 1/sqrt(3) apart and the root of the area is 3^(1/4)/2.
   const FlowLink even = flow_link({Vec2{0, 0}, Vec2{1, 0}}, {0.5, std::sqrt(0.75)}, {0.5, -std::sqrt(0.75)});
-  EXPECT_NEAR(even.cosine, 0, 1e-15);
+  EXPECT_NEAR(even.cosine.value(), 0, 1e-15);
   EXPECT_NEAR(even.length, 2 * std::pow(3, -0.75), 1e-14);
   // A centre outside of an obtuse triangle moves onto its side, and the link is no longer upright.
   const FlowLink leaning = flow_link({Vec2{0, 0}, Vec2{1, 0}}, {1.6, 0.4}, {0.5, -std::sqrt(0.75)});
-  EXPECT_GT(leaning.cosine, 0.01);
+  EXPECT_GT(leaning.cosine.value(), 0.01);
   const mesh::DistributedMesh obtuse =
       mesh_of({{0, 0}, {1, 0}, {1.6, 0.4}, {0.5, -std::sqrt(0.75)}}, {{0, 1, 2}, {0, 3, 1}});
   const Verdict cosine = judged(obtuse, Solver::delft3d, Measure::link_cosine, false, 0.01);
   EXPECT_EQ(cosine.broken, 1);
-  EXPECT_NEAR(cosine.worst, leaning.cosine, 1e-12);
+  EXPECT_NEAR(cosine.worst, leaning.cosine.value(), 1e-12);
+}
+
+TEST(Judge, MeasuresNoAngleOfALinkWithoutADirection) {
+  // The triangles of a rotated square have one circumcentre up to rounding, near the origin and far away from it.
+  for (const double far : {0.0, 1e6})
+    for (int k = 0; k < 200; ++k) {
+      const double angle = 0.01 * k, c = std::cos(angle), s = std::sin(angle);
+      const auto at = [&](double x, double y) { return Vec2{far + 10 * (c * x - s * y), far + 10 * (s * x + c * y)}; };
+      EXPECT_FALSE(flow_link({at(0, 0), at(1, 1)}, at(0, 1), at(1, 0)).cosine.has_value()) << far << ' ' << angle;
+      EXPECT_TRUE(flow_link({at(0, 0), at(1, 1)}, at(0, 1), at(1, -0.001)).cosine.has_value()) << far << ' ' << angle;
+    }
+  const mesh::DistributedMesh square = mesh_of({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {{0, 1, 2}, {0, 2, 3}});
+  const Verdict cosine = judged(square, Solver::delft3d, Measure::link_cosine, false, 0.5);
+  EXPECT_EQ(cosine.measured, 0);
+  EXPECT_TRUE(cosine.holds());
+}
+
+TEST(Judge, FindsTrianglesWithoutAreaInfinitelyBad) {
+  // Of three triangles, the first one is good, the second one is flat or lies upside down, the third one is a needle.
+  const std::vector<Ids> triangles{{0, 1, 2}, {3, 4, 5}, {6, 7, 8}};
+  for (const double height : {0.0, -0.5}) {
+    const mesh::DistributedMesh mesh =
+        mesh_of({{0, 0}, {1, 0}, {0.5, 0.8}, {2, 0}, {4, 0}, {3, height}, {5, 0}, {6, 0}, {5.5, 1e-4}}, triangles);
+    const Verdict skew = judged(mesh, Solver::schism, Measure::skewness, false, 15);
+    EXPECT_EQ(skew.broken, 2);
+    EXPECT_TRUE(std::isinf(skew.worst));
+    EXPECT_NEAR(skew.place.x, 3, 1e-12);
+    EXPECT_GE(judged(mesh, Solver::adcirc, Measure::least_angle, true, 10).broken, 2);
+  }
+  const mesh::DistributedMesh pair = mesh_of({{0, 0}, {1, 0}, {0.5, 0.8}, {0.5, 0}}, {{0, 1, 2}, {0, 3, 1}});
+  const Verdict share = judged(pair, Solver::fvcom, Measure::area_share, true, 0.5);
+  EXPECT_EQ(share.broken, 1);
+  EXPECT_EQ(share.worst, 0);
+}
+
+TEST(Judge, AllowsForRoundingAtALimit) {
+  // Half a corner of 60 degrees has 30 degrees.
+  for (int k = 0; k < 8; ++k) {
+    const double turn = 0.4 * k, wide = turn + std::numbers::pi / 6;
+    const mesh::DistributedMesh half =
+        mesh_of({{0, 0}, {std::cos(turn), std::sin(turn)}, {std::cos(wide), std::sin(wide)}}, {{0, 1, 2}});
+    EXPECT_EQ(judged(half, Solver::fvcom, Measure::least_angle, true, 30).broken, 0) << k;
+  }
 }
 
 TEST(Judge, KnowsPartsAndLoopsOfTheWholeBoundary) {
