@@ -5,6 +5,7 @@
 #include "formats/cell_arrays.hpp"
 #include "formats/output_files.hpp"
 #include "io/extra_arrays.hpp"
+#include "io/id_bytes.hpp"
 #include "io/temporary_file.hpp"
 #include "io/xdmf.hpp"
 #include "trime/core/error.hpp"
@@ -234,7 +235,8 @@ std::vector<std::string> MeshSeries::write_collections() const {
     std::vector<io::XdmfContent> grids;
     for (const Member& m : members_)
       grids.push_back({m.name + ".h5", io::field_group(file, "CellData"), io::field_group(file, "PointData"),
-                       m.quality.points, m.quality.triangles, 0, m.quality.retriangulation});
+                       m.quality.points, m.quality.triangles, 0, io::id_bytes(m.quality.triangles),
+                       m.quality.retriangulation});
     io::write_text_file(xdmf_collection(file), io::xdmf_series_text(grids), file.run_files);
     paths.push_back(xdmf_collection(file));
   }

@@ -111,8 +111,8 @@ void SlabFile::agree_on(hid_t code, const std::string& action) const {
   agreed_after([&] { checked(code, action); });
 }
 
-/// The room is taken before MPI-IO comes to see the file. Rank 0 makes it, empty: to make it together would be to write
-/// its first bytes together, on a disk that may be full.
+/// Rank 0 makes the file, reserves its room, and writes all that is small, before the others open it by MPI-IO. If all
+/// ranks made it together, they would write its first bytes together, on a disk that may be full.
 SlabFile::SlabFile(const comm::Communicator& comm, std::string path, std::int64_t bytes,
                    const std::function<void(const FileStart&)>& start)
     : comm_(comm), path_(std::move(path)), write_back_(path_) {
@@ -182,6 +182,21 @@ void SlabFile::attribute(const std::string& object, const Attribute& attribute) 
                                              H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
   agree_on(made, making);
   agree_on(H5Awrite(made, values.type, values.bytes.data()), writing);
+}
+
+/// The group is opened before the attribute: HDF5 1.10.8 cannot write to what H5Aopen_by_name has opened.
+void SlabFile::change_attribute(const std::string& group, const Attribute& attribute) {
+  SmallValues values;
+  std::string changing;
+  agreed([&] {
+    values = attribute_value(attribute);
+    changing = action("change", "the attribute " + attribute.name);
+  });
+  const Hdf5Group opened(H5Gopen2(file_, group.c_str(), H5P_DEFAULT));
+  agree_on(opened, changing);
+  const Hdf5Attribute found(H5Aopen(opened, attribute.name.c_str(), H5P_DEFAULT));
+  agree_on(found, changing);
+  agree_on(H5Awrite(found, values.type, values.bytes.data()), changing);
 }
 
 void SlabFile::slab(SlabArray array) {
