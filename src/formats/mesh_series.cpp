@@ -186,7 +186,7 @@ io::WrittenFiles MeshSeries::write(const SeriesMesh& mesh, const std::string& na
   file.name = name;
   file.is_final = label == final_label;
   const io::WrittenFiles written = io::write_mesh_and(
-      file.is_final ? extra_groups(mesh.mesh) : std::vector<io::ExtraGroup>{}, file, mesh.mesh, mesh.metadata, comm_);
+      {file.is_final ? extra_groups(mesh.mesh) : std::vector<io::ExtraGroup>{}}, file, mesh.mesh, mesh.metadata, comm_);
   const bool first = !is_cleared_;
   is_cleared_ = true;
   members_.push_back(

@@ -409,20 +409,20 @@ WrittenFiles write_mesh(const MeshFileOptions& options, const mesh::DistributedM
   return write_mesh_and({}, options, mesh, metadata, comm);
 }
 
-WrittenFiles write_mesh_and(const std::vector<ExtraGroup>& groups, const MeshFileOptions& options,
-                            const mesh::DistributedMesh& mesh, const Metadata& metadata, const comm::Communicator& comm,
-                            std::int64_t largest_int32) {
+WrittenFiles write_mesh_and(const ExtraContent& extra, const MeshFileOptions& options,
+                            const mesh::DistributedMesh& mesh, const Metadata& metadata,
+                            const comm::Communicator& comm) {
   check_shapes(mesh);
   Metadata of_root = broadcast(metadata, comm);
   const std::optional<Attribute> completeness = withdraw_completeness(of_root);
-  const int bytes_per_id = id_bytes(mesh.triangle_slab.total, largest_int32);
+  const int bytes_per_id = id_bytes(mesh.triangle_slab.total, extra.largest_int32);
   const std::string path = comm.broadcast(temporary_name(options.path(".h5")));
   std::optional<TemporaryFile> temporary; // rank 0 removes it if anything fails
   comm::run_agreed(comm, [&] {
     if (comm.is_root())
       temporary.emplace(path, options.run_files);
   });
-  const std::int64_t lines = write_hdf5(path, {options, mesh, of_root, groups, bytes_per_id}, completeness, comm);
+  const std::int64_t lines = write_hdf5(path, {options, mesh, of_root, extra.groups, bytes_per_id}, completeness, comm);
   const XdmfContent content{options.name + ".h5",
                             field_group(options, "CellData"),
                             field_group(options, "PointData"),

@@ -378,7 +378,7 @@ TEST(MeshFile, IdsAreWiderWhereTheLastOffsetNeedsIt) {
       check_output(options, comm);
       mesh::DistributedMesh mesh = make_mesh(comm, 8);
       const Metadata metadata{{{"mesh_hash", mesh::partial_hash(mesh)}}, {}, {}};
-      write_mesh_and({}, options, mesh, metadata, comm, 3 * n_triangles - (is_wide ? 1 : 0));
+      write_mesh_and({{}, 3 * n_triangles - (is_wide ? 1 : 0)}, options, mesh, metadata, comm);
       if (!comm.is_root())
         continue;
       const Hdf5File file(H5Fopen(options.path(".h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "open");
@@ -428,7 +428,7 @@ TEST(MeshFile, SaysThatItIsCompleteOnlyAfterItIsVerified) {
         copy_temporary(options.directory, copy);
     };
     const ExtraGroup group{"/extra", {}, {{"row", ValueType::int32, 0, comm.size(), {{comm.rank(), 1, fill}}}}};
-    write_mesh_and({group}, options, make_mesh(comm, 9), {{{"complete", complete}}, {}, {}}, comm);
+    write_mesh_and({{group}}, options, make_mesh(comm, 9), {{{"complete", complete}}, {}, {}}, comm);
     EXPECT_GE(fills, 2) << "written and verified";
     if (!comm.is_root())
       continue;
