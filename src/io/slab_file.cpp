@@ -43,7 +43,8 @@ Hdf5Properties file_access(const comm::Communicator& comm, bool alone) {
   checked(H5Pset_sieve_buf_size(properties, 0), "set HDF5 properties"); // or rows would be read back from memory
   if (!alone) {
     checked(H5Pset_fapl_mpio(properties, comm::native_handle(comm), MPI_INFO_NULL), "set HDF5 properties");
-    // Reading metadata collectively is broken in HDF5 1.10.5 to 1.10.8; writing it so is right.
+    // Reading metadata collectively is broken in HDF5 1.10.5 to 1.10.8; writing it so is right. Calls that change the
+    // file let rank 0 read and send what the others need, so the others read none (counted by strace).
     checked(H5Pset_coll_metadata_write(properties, true), "set HDF5 properties");
   }
   return properties;
