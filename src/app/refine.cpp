@@ -179,7 +179,7 @@ ExitCode refine(const CommandLine& line, io::RunFiles* files, const comm::Commun
   const Metadata described = refined_metadata(metadata, refined, line, wall_seconds() - start, comm);
   const std::vector<io::ExtraGroup> groups =
       shape.cells ? cells_of(refined.mesh, metadata, comm, log) : std::vector<io::ExtraGroup>{};
-  const io::WrittenFiles written = io::write_mesh_and(groups, options, refined.mesh, described, comm);
+  const io::WrittenFiles written = io::write_mesh_and({groups}, options, refined.mesh, described, comm);
   log.info("{}: {} points, {} triangles, {} boundary edges; mesh hash {:016x}", to, refined.mesh.point_slab.total,
            refined.mesh.triangle_slab.total, refined.mesh.facet_slab.total, refined.mesh.hash);
   const bool is_complete = comm.broadcast(std::string{says_complete(described) ? '1' : '0'}) == "1";

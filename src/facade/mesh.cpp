@@ -269,7 +269,7 @@ void write_mesh_file(const fs::path& file, const Mesh::Implementation& made, con
   std::vector<io::ExtraGroup> groups;
   if (options.voronoi)
     groups.push_back(formats::cell_arrays(made.result.mesh, origin.period, comm));
-  io::write_mesh_and(groups, target, made.result.mesh, made.metadata, comm);
+  io::write_mesh_and({groups}, target, made.result.mesh, made.metadata, comm);
 }
 
 } // namespace

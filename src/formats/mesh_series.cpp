@@ -5,6 +5,7 @@
 #include "formats/cell_arrays.hpp"
 #include "formats/output_files.hpp"
 #include "io/extra_arrays.hpp"
+#include "io/id_bytes.hpp"
 #include "io/temporary_file.hpp"
 #include "io/xdmf.hpp"
 #include "trime/core/error.hpp"
@@ -185,7 +186,7 @@ io::WrittenFiles MeshSeries::write(const SeriesMesh& mesh, const std::string& na
   file.name = name;
   file.is_final = label == final_label;
   const io::WrittenFiles written = io::write_mesh_and(
-      file.is_final ? extra_groups(mesh.mesh) : std::vector<io::ExtraGroup>{}, file, mesh.mesh, mesh.metadata, comm_);
+      {file.is_final ? extra_groups(mesh.mesh) : std::vector<io::ExtraGroup>{}}, file, mesh.mesh, mesh.metadata, comm_);
   const bool first = !is_cleared_;
   is_cleared_ = true;
   members_.push_back(
@@ -234,7 +235,8 @@ std::vector<std::string> MeshSeries::write_collections() const {
     std::vector<io::XdmfContent> grids;
     for (const Member& m : members_)
       grids.push_back({m.name + ".h5", io::field_group(file, "CellData"), io::field_group(file, "PointData"),
-                       m.quality.points, m.quality.triangles, 0, m.quality.retriangulation});
+                       m.quality.points, m.quality.triangles, 0, io::id_bytes(m.quality.triangles),
+                       m.quality.retriangulation});
     io::write_text_file(xdmf_collection(file), io::xdmf_series_text(grids), file.run_files);
     paths.push_back(xdmf_collection(file));
   }

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -55,10 +56,18 @@ struct ExtraGroup {
   }
 };
 
+/// What a caller adds to a mesh file, and the limit of its narrow ids.
+struct ExtraContent {
+  std::vector<ExtraGroup> groups;
+  /// The largest offset for which vertices and offsets of triangles are stored as int32. Tests set a small one to write
+  /// int64.
+  std::int64_t largest_int32 = std::numeric_limits<std::int32_t>::max();
+};
+
 /// Does the same as write_mesh, and adds groups of arrays to the file.
 /// @throws FileError on all ranks together
 /// @note Collective.
-WrittenFiles write_mesh_and(const std::vector<ExtraGroup>& groups, const MeshFileOptions& options,
+WrittenFiles write_mesh_and(const ExtraContent& extra, const MeshFileOptions& options,
                             const mesh::DistributedMesh& mesh, const Metadata& metadata,
                             const comm::Communicator& comm);
 

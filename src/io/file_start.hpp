@@ -22,8 +22,8 @@ struct ArrayShape {
 
 /// @brief An array that shows the values of another array of the same file in another shape, and takes no room; a
 /// virtual dataset of HDF5. The source has the same number of values, which are shown in its order, or the same rows
-/// and fewer columns, which are shown as the first ones. The values of other columns are 0. HDF5 1.10 cannot read such
-/// an array if the file was opened by MPI-IO.
+/// and fewer columns, which are shown as the first ones. The values of other columns are 0. HDF5 1.10.8
+/// cannot read such an array if the file was opened by MPI-IO; other versions were not tried.
 struct VirtualArray {
   std::string path;
   hid_t type = -1; ///< native type of one value

@@ -18,6 +18,7 @@
 #include <cstring>
 #include <memory>
 #include <optional>
+#include <utility>
 
 namespace trime::io {
 namespace {
@@ -97,9 +98,9 @@ SlabArray vertex_ids_as(const std::string& path, const mesh::DistributedMesh& me
           rows_per_triangle * static_cast<std::int64_t>(mesh.triangles.size()),
           fill};
 }
-SlabArray vertex_ids(const std::string& path, const mesh::DistributedMesh& mesh, hsize_t columns) {
-  return id_bytes(mesh.triangle_slab.total) == 4 ? vertex_ids_as<std::int32_t>(path, mesh, columns)
-                                                 : vertex_ids_as<std::int64_t>(path, mesh, columns);
+SlabArray vertex_ids(const std::string& path, const mesh::DistributedMesh& mesh, hsize_t columns, int bytes_per_id) {
+  return bytes_per_id == 4 ? vertex_ids_as<std::int32_t>(path, mesh, columns)
+                           : vertex_ids_as<std::int64_t>(path, mesh, columns);
 }
 
 /// Points with z = 0, as VTK wants them.
@@ -118,13 +119,13 @@ SlabArray points_in_space(const std::string& path, const mesh::DistributedMesh& 
 }
 
 /// Offsets 0, 3, 6, ..., 3M: one more than triangles; the rank that holds the last triangle writes the last one.
-SlabArray offsets(const std::string& path, const mesh::DistributedMesh& mesh) {
+SlabArray offsets(const std::string& path, const mesh::DistributedMesh& mesh, int bytes_per_id) {
   mesh::Slab slab = mesh.triangle_slab;
   auto rows = static_cast<std::int64_t>(mesh.triangles.size());
   if (rows > 0 && slab.first + rows == slab.total)
     ++rows;
   slab.total += 1;
-  if (id_bytes(mesh.triangle_slab.total) == 4)
+  if (bytes_per_id == 4)
     return computed<std::int32_t>(path, slab, rows,
                                   [](std::int64_t row) { return static_cast<std::int32_t>(3 * row); });
   return computed<std::int64_t>(path, slab, rows, [](std::int64_t row) { return 3 * row; });
@@ -146,22 +147,22 @@ void write_fields(SlabFile& file, const std::string& cells, const std::string& p
 }
 
 /// @param with_elements false: points and triangles show those of the plain mesh
-void write_vtkhdf(SlabFile& file, const mesh::DistributedMesh& mesh, bool with_elements) {
+void write_vtkhdf(SlabFile& file, const mesh::DistributedMesh& mesh, bool with_elements, int bytes_per_id) {
   if (with_elements) {
     file.slab(points_in_space("/VTKHDF/Points", mesh));
-    file.slab(vertex_ids("/VTKHDF/Connectivity", mesh, 0));
+    file.slab(vertex_ids("/VTKHDF/Connectivity", mesh, 0, bytes_per_id));
   }
-  file.slab(offsets("/VTKHDF/Offsets", mesh));
+  file.slab(offsets("/VTKHDF/Offsets", mesh, bytes_per_id));
   constexpr std::uint8_t vtk_triangle = 5;
   file.slab(computed<std::uint8_t>("/VTKHDF/Types", mesh.triangle_slab, std::ssize(mesh.triangles),
                                    [](std::int64_t) { return vtk_triangle; }));
 }
 
 /// The 2D view of FEniCS, with hard links at the places where PETSc looks.
-void write_plain_mesh(SlabFile& file, const mesh::DistributedMesh& mesh) {
+void write_plain_mesh(SlabFile& file, const mesh::DistributedMesh& mesh, int bytes_per_id) {
   file.group("/Mesh/mesh");
   file.slab(stored<double>("/Mesh/mesh/geometry", mesh.point_slab, 2, mesh.points));
-  file.slab(vertex_ids("/Mesh/mesh/topology", mesh, 3));
+  file.slab(vertex_ids("/Mesh/mesh/topology", mesh, 3, bytes_per_id));
   file.attribute("/Mesh/mesh/topology", {"cell_dim", std::int64_t{2}});
   file.attribute("/Mesh/mesh/topology", {"cell_corners", std::int64_t{3}});
   file.group("/geometry");
@@ -264,12 +265,12 @@ void write_ranks(SlabFile& file, const mesh::DistributedMesh& mesh, const comm::
 }
 
 /// Size of the file, a little too large.
-std::int64_t file_bytes(const MeshFileOptions& options, const mesh::DistributedMesh& mesh, const Metadata& metadata) {
-  const std::int64_t vtkhdf = options.vtkhdf ? 1 : 0, only_vtkhdf = has_plain_mesh(options) ? 0 : 1,
-                     per_id = id_bytes(mesh.triangle_slab.total);
+std::int64_t file_bytes(const MeshFileOptions& options, const mesh::DistributedMesh& mesh, const Metadata& metadata,
+                        int per_id) {
+  const std::int64_t vtkhdf = options.vtkhdf ? 1 : 0, only_vtkhdf = has_plain_mesh(options) ? 0 : 1;
   const std::int64_t per_point = 9 + 16 + 8 * only_vtkhdf + (mesh.depth ? 8 : 0),
                      per_triangle = 12 + 3 * per_id + (1 + per_id) * vtkhdf;
-  constexpr std::int64_t headers = 64 << 10, per_facet = 32, per_line = 20, per_inner_edge = 56, per_pair = 24;
+  constexpr std::int64_t headers = 64 << 10, per_facet = 36, per_line = 20, per_inner_edge = 56, per_pair = 24;
   std::int64_t bytes =
       headers + per_point * mesh.point_slab.total + per_triangle * mesh.triangle_slab.total +
       per_facet * mesh.facet_slab.total + per_inner_edge * (mesh.curve_slab.total + mesh.interface_slab.total) +
@@ -289,29 +290,40 @@ struct FileContent {
   const mesh::DistributedMesh& mesh;
   const Metadata& metadata;
   const std::vector<ExtraGroup>& groups;
+  int bytes_per_id = 0; // of a vertex of a triangle
 
   std::int64_t bytes() const {
-    std::int64_t sum = file_bytes(options, mesh, metadata);
+    std::int64_t sum = file_bytes(options, mesh, metadata, bytes_per_id);
     for (const ExtraGroup& group : groups)
       sum += group.bytes() + group.bytes() / 16;
     return sum;
   }
 };
 
-/// Returns the number of labelled edges.
-std::int64_t write_hdf5(const std::string& path, const FileContent& content, const comm::Communicator& comm) {
-  const auto& [options, mesh, metadata, groups] = content;
+/// Sets the value `complete` to 0, as long as the file is being written. Returns what it was, if there is one.
+std::optional<Attribute> withdraw_completeness(Metadata& metadata) {
+  for (Attribute& attribute : metadata.attributes)
+    if (attribute.name == "complete")
+      return std::exchange(attribute, {attribute.name, std::int64_t{0}});
+  return std::nullopt;
+}
+
+/// @param completeness the last thing that is written, after all has been read back
+/// @return number of labelled edges
+std::int64_t write_hdf5(const std::string& path, const FileContent& content,
+                        const std::optional<Attribute>& completeness, const comm::Communicator& comm) {
+  const auto& [options, mesh, metadata, groups, bytes_per_id] = content;
   const auto markers = facet_markers(options, mesh);
   const std::size_t parts = options.part_markers.size(), curves = curve_names(metadata).size();
   const LabelledLines lines = has_inner_edges(mesh) ? labelled_lines(mesh, parts, curves, comm) : LabelledLines{};
   SlabFile file(comm, path, content.bytes(), [&content](const FileStart& start) {
-    start_mesh_file(start, content.options, content.mesh, content.metadata);
+    start_mesh_file(start, content.options, content.mesh, content.metadata, content.bytes_per_id);
   });
   if (options.vtkhdf)
-    write_vtkhdf(file, mesh, !has_plain_mesh(options));
+    write_vtkhdf(file, mesh, !has_plain_mesh(options), bytes_per_id);
   write_fields(file, field_group(options, "CellData"), field_group(options, "PointData"), mesh);
   if (has_plain_mesh(options))
-    write_plain_mesh(file, mesh);
+    write_plain_mesh(file, mesh, bytes_per_id);
   write_facets(file, mesh, markers);
   write_curves(file, mesh, parts);
   write_interfaces(file, mesh, parts + curves);
@@ -322,6 +334,8 @@ std::int64_t write_hdf5(const std::string& path, const FileContent& content, con
     write_group(file, group);
   write_ranks(file, mesh, comm);
   file.verify();
+  if (completeness)
+    file.change_attribute("/trime_mpi", *completeness);
   file.close();
   return has_inner_edges(mesh) ? lines.slab.total : mesh.facet_slab.total;
 }
@@ -395,24 +409,27 @@ WrittenFiles write_mesh(const MeshFileOptions& options, const mesh::DistributedM
   return write_mesh_and({}, options, mesh, metadata, comm);
 }
 
-WrittenFiles write_mesh_and(const std::vector<ExtraGroup>& groups, const MeshFileOptions& options,
+WrittenFiles write_mesh_and(const ExtraContent& extra, const MeshFileOptions& options,
                             const mesh::DistributedMesh& mesh, const Metadata& metadata,
                             const comm::Communicator& comm) {
   check_shapes(mesh);
-  const Metadata of_root = broadcast(metadata, comm);
+  Metadata of_root = broadcast(metadata, comm);
+  const std::optional<Attribute> completeness = withdraw_completeness(of_root);
+  const int bytes_per_id = id_bytes(mesh.triangle_slab.total, extra.largest_int32);
   const std::string path = comm.broadcast(temporary_name(options.path(".h5")));
   std::optional<TemporaryFile> temporary; // rank 0 removes it if anything fails
   comm::run_agreed(comm, [&] {
     if (comm.is_root())
       temporary.emplace(path, options.run_files);
   });
-  const std::int64_t lines = write_hdf5(path, {options, mesh, of_root, groups}, comm);
+  const std::int64_t lines = write_hdf5(path, {options, mesh, of_root, extra.groups, bytes_per_id}, completeness, comm);
   const XdmfContent content{options.name + ".h5",
                             field_group(options, "CellData"),
                             field_group(options, "PointData"),
                             mesh.point_slab.total,
                             mesh.triangle_slab.total,
                             lines,
+                            bytes_per_id,
                             0,
                             has_inner_edges(mesh),
                             has_regions(of_root),

@@ -14,7 +14,8 @@ bool has_plain_mesh(const MeshFileOptions& options);
 
 /// Makes the groups of the views and of the fields, and writes all metadata. If the file has the plain mesh and the
 /// group /VTKHDF, points and triangles of the latter show those of the plain mesh.
+/// @param bytes_per_id bytes of a vertex of a triangle, 4 or 8
 void start_mesh_file(const FileStart& start, const MeshFileOptions& options, const mesh::DistributedMesh& mesh,
-                     const Metadata& metadata);
+                     const Metadata& metadata, int bytes_per_id);
 
 } // namespace trime::io

@@ -43,7 +43,8 @@ Hdf5Properties file_access(const comm::Communicator& comm, bool alone) {
   checked(H5Pset_sieve_buf_size(properties, 0), "set HDF5 properties"); // or rows would be read back from memory
   if (!alone) {
     checked(H5Pset_fapl_mpio(properties, comm::native_handle(comm), MPI_INFO_NULL), "set HDF5 properties");
-    // Reading metadata collectively is broken in HDF5 1.10.5 to 1.10.8; writing it so is right.
+    // Reading metadata collectively is broken in HDF5 1.10.5 to 1.10.8; writing it so is right. Calls that change the
+    // file let rank 0 read and send what the others need, so the others read none (counted by strace).
     checked(H5Pset_coll_metadata_write(properties, true), "set HDF5 properties");
   }
   return properties;
@@ -111,8 +112,8 @@ void SlabFile::agree_on(hid_t code, const std::string& action) const {
   agreed_after([&] { checked(code, action); });
 }
 
-/// The room is taken before MPI-IO comes to see the file. Rank 0 makes it, empty: to make it together would be to write
-/// its first bytes together, on a disk that may be full.
+/// Rank 0 makes the file, reserves its room, and writes all that is small, before the others open it by MPI-IO. If all
+/// ranks made it together, they would write its first bytes together, on a disk that may be full.
 SlabFile::SlabFile(const comm::Communicator& comm, std::string path, std::int64_t bytes,
                    const std::function<void(const FileStart&)>& start)
     : comm_(comm), path_(std::move(path)), write_back_(path_) {
@@ -182,6 +183,21 @@ void SlabFile::attribute(const std::string& object, const Attribute& attribute) 
                                              H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
   agree_on(made, making);
   agree_on(H5Awrite(made, values.type, values.bytes.data()), writing);
+}
+
+/// The group is opened before the attribute: HDF5 1.10.8 cannot write to what H5Aopen_by_name has opened.
+void SlabFile::change_attribute(const std::string& group, const Attribute& attribute) {
+  SmallValues values;
+  std::string changing;
+  agreed([&] {
+    values = attribute_value(attribute);
+    changing = action("change", "the attribute " + attribute.name);
+  });
+  const Hdf5Group opened(H5Gopen2(file_, group.c_str(), H5P_DEFAULT));
+  agree_on(opened, changing);
+  const Hdf5Attribute found(H5Aopen(opened, attribute.name.c_str(), H5P_DEFAULT));
+  agree_on(found, changing);
+  agree_on(H5Awrite(found, values.type, values.bytes.data()), changing);
 }
 
 void SlabFile::slab(SlabArray array) {

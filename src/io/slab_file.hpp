@@ -53,6 +53,8 @@ public:
   /// Writes an attribute of `object`, which is the path of a group or dataset. A text longer than longest_attribute is
   /// shortened.
   void attribute(const std::string& object, const Attribute& attribute);
+  /// Gives another value of the same type and size to an attribute that the group has.
+  void change_attribute(const std::string& group, const Attribute& attribute);
   /// Writes an array. Keeps the dataset open, and a copy of the array's description, for verify().
   void slab(SlabArray array);
   /// Writes more rows of an array that slab() has made, with the same number of rows over all ranks.

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/xdmf.hpp"
 
-#include "io/id_bytes.hpp"
-
 #include <fmt/format.h>
 
 #include <array>
@@ -56,7 +54,7 @@ struct Cells {
   int corners;
   std::int64_t count;
   const char* group;
-  int id_bytes;
+  int bytes_per_id;
 };
 
 /// Corners of cells of a type, and the points.
@@ -68,14 +66,13 @@ std::string topology(const XdmfContent& content, const Cells& cells) {
       " <Geometry GeometryType=\"XY\">\n"
       "  <DataItem Dimensions=\"{0} 2\" NumberType=\"Float\" Precision=\"8\" Format=\"HDF\">{2}:/Mesh/mesh/geometry"
       "</DataItem></Geometry>\n",
-      content.points, cells.count, escaped(content.file), cells.corners, cells.type, cells.group, cells.id_bytes);
+      content.points, cells.count, escaped(content.file), cells.corners, cells.type, cells.group, cells.bytes_per_id);
 }
 
 /// A grid of one file; `extra` follows its start.
 std::string grid(const XdmfContent& content, const std::string& extra) {
-  std::string text =
-      fmt::format("<Grid Name=\"mesh\" GridType=\"Uniform\">\n{}{}", extra,
-                  topology(content, {"Triangle", 3, content.triangles, "mesh", id_bytes(content.triangles)}));
+  std::string text = fmt::format("<Grid Name=\"mesh\" GridType=\"Uniform\">\n{}{}", extra,
+                                 topology(content, {"Triangle", 3, content.triangles, "mesh", content.bytes_per_id}));
   std::array fields{Field{"alpha", "Cell", "Float", 4}, Field{"beta", "Cell", "Float", 4},
                     Field{"region", "Cell", "Int", 4},  Field{"boundary", "Node", "Int", 4},
                     Field{"size", "Node", "Float", 4},  Field{"fixed", "Node", "UChar", 1}};

@@ -14,6 +14,7 @@ struct XdmfContent {
   std::string cell_data;  ///< HDF5 group with alpha, beta and region of the triangles
   std::string point_data; ///< HDF5 group with boundary, size and fixed of the points
   std::int64_t points = 0, triangles = 0, lines = 0;
+  int bytes_per_id = 0;         ///< bytes of a vertex of a triangle, 4 or 8
   int time = 0;                 ///< time step; used only in a series
   bool has_inner_lines = false; ///< whether `lines` counts all labelled edges, which are listed in /Mesh/lines;
                                 ///< otherwise they are those of /Mesh/facets

@@ -4,6 +4,7 @@
 #include "trime/io/mesh_file.hpp"
 
 #include "core/random.hpp"
+#include "io/extra_arrays.hpp"
 #include "support/hdf5_reading.hpp"
 #include "support/mesh_slabs.hpp"
 #include "support/temporary_directory.hpp"
@@ -98,6 +99,29 @@ std::string read_text(hid_t object, const char* attribute) {
   return text;
 }
 
+/// Reads ids that the file holds as T, and compares row i with expected(i).
+template <class T, class F>
+void expect_ids(hid_t file, const char* path, const std::vector<hsize_t>& shape, const F& expected,
+                H5D_layout_t layout = H5D_CONTIGUOUS) {
+  const hid_t type = sizeof(T) == 4 ? H5T_NATIVE_INT32 : H5T_NATIVE_INT64;
+  const hsize_t values = shape[0] * (shape.size() > 1 ? shape[1] : 1);
+  expect_values(read<T>(file, path, type, shape, layout), static_cast<std::int64_t>(values), expected);
+}
+
+template <class T>
+void expect_connectivity(hid_t file, H5D_layout_t layout) {
+  expect_ids<T>(
+      file, "/VTKHDF/Connectivity", {3 * n_triangles},
+      [](std::int64_t i) { return vertex(i / 3, static_cast<int>(i % 3)); }, layout);
+  expect_ids<T>(file, "/VTKHDF/Offsets", {n_triangles + 1}, [](std::int64_t i) { return 3 * i; });
+}
+
+template <class T>
+void expect_topology(hid_t file) {
+  for (const char* path : {"/Mesh/mesh/topology", "/viz/topology/cells"})
+    expect_ids<T>(file, path, {n_triangles, 3}, [](std::int64_t i) { return vertex(i / 3, static_cast<int>(i % 3)); });
+}
+
 void expect_vtkhdf(hid_t file) {
   const Hdf5Group group(H5Gopen2(file, "/VTKHDF", H5P_DEFAULT), "VTKHDF");
   EXPECT_EQ(read_text(group, "Type"), "UnstructuredGrid");
@@ -115,10 +139,7 @@ void expect_vtkhdf(hid_t file) {
   EXPECT_EQ(read<std::int64_t>(file, "/VTKHDF/NumberOfConnectivityIds", i64, {1})[0], 3 * n_triangles);
   expect_values(read<double>(file, "/VTKHDF/Points", H5T_NATIVE_DOUBLE, {n_points, 3}, H5D_VIRTUAL), 3 * n_points,
                 [](std::int64_t i) { return i % 3 == 2 ? 0 : coordinate(i / 3, static_cast<int>(i % 3)); });
-  expect_values(read<std::int32_t>(file, "/VTKHDF/Connectivity", i32, {3 * n_triangles}, H5D_VIRTUAL), 3 * n_triangles,
-                [](std::int64_t i) { return vertex(i / 3, static_cast<int>(i % 3)); });
-  expect_values(read<std::int32_t>(file, "/VTKHDF/Offsets", i32, {n_triangles + 1}), n_triangles + 1,
-                [](std::int64_t i) { return 3 * i; });
+  expect_connectivity<std::int32_t>(file, H5D_VIRTUAL);
   expect_values(read<std::uint8_t>(file, "/VTKHDF/Types", H5T_NATIVE_UINT8, {n_triangles}), n_triangles,
                 [](std::int64_t) { return 5; });
   expect_values(read<float>(file, "/VTKHDF/CellData/alpha", f32, {n_triangles}), n_triangles,
@@ -140,9 +161,8 @@ void expect_plain_mesh(hid_t file) {
   for (const char* path : {"/Mesh/mesh/geometry", "/geometry/vertices"})
     expect_values(read<double>(file, path, H5T_NATIVE_DOUBLE, {n_points, 2}), 2 * n_points,
                   [](std::int64_t i) { return coordinate(i / 2, static_cast<int>(i % 2)); });
+  expect_topology<std::int32_t>(file);
   for (const char* path : {"/Mesh/mesh/topology", "/viz/topology/cells"}) {
-    expect_values(read<std::int32_t>(file, path, H5T_NATIVE_INT32, {n_triangles, 3}), 3 * n_triangles,
-                  [](std::int64_t i) { return vertex(i / 3, static_cast<int>(i % 3)); });
     for (const auto& [name, expected] : {std::pair("cell_dim", 2), std::pair("cell_corners", 3)}) {
       const Hdf5Attribute attribute(H5Aopen_by_name(file, path, name, H5P_DEFAULT, H5P_DEFAULT), name);
       std::int64_t value = 0;
@@ -345,6 +365,75 @@ TEST(MeshFile, WritesOnlyTheViewsThatAreWanted) {
     for (const auto& [path, bytes] :
          {std::pair("/VTKHDF/Points", 24 * n_points), {"/VTKHDF/Connectivity", 12 * n_triangles}})
       EXPECT_EQ(test::stored_bytes(file, path), bytes) << path << " has no array that it could show";
+  }
+}
+
+TEST(MeshFile, IdsAreWiderWhereTheLastOffsetNeedsIt) {
+  const comm::Communicator comm = comm::Communicator::world();
+  for (const bool xdmf : {true, false})
+    for (const bool is_wide : {true, false}) {
+      const test::TemporaryDirectory directory(comm);
+      MeshFileOptions options = options_in(directory.path());
+      options.xdmf = xdmf;
+      check_output(options, comm);
+      mesh::DistributedMesh mesh = make_mesh(comm, 8);
+      const Metadata metadata{{{"mesh_hash", mesh::partial_hash(mesh)}}, {}, {}};
+      write_mesh_and({{}, 3 * n_triangles - (is_wide ? 1 : 0)}, options, mesh, metadata, comm);
+      if (!comm.is_root())
+        continue;
+      const Hdf5File file(H5Fopen(options.path(".h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "open");
+      const H5D_layout_t layout = xdmf ? H5D_VIRTUAL : H5D_CONTIGUOUS;
+      is_wide ? expect_connectivity<std::int64_t>(file, layout) : expect_connectivity<std::int32_t>(file, layout);
+      if (!xdmf)
+        continue;
+      is_wide ? expect_topology<std::int64_t>(file) : expect_topology<std::int32_t>(file);
+      const std::string text = content(options.path(".xdmf")),
+                        wanted = std::string("Dimensions=\"1900 3\" NumberType=\"Int\" Precision=\"") +
+                                 (is_wide ? "8" : "4") + "\"";
+      EXPECT_NE(text.find(wanted), std::string::npos) << text;
+    }
+}
+
+std::int64_t completeness(const std::string& path) {
+  const Hdf5File file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "open");
+  const Hdf5Attribute attribute(H5Aopen_by_name(file, "/trime_mpi", "complete", H5P_DEFAULT, H5P_DEFAULT), "complete");
+  std::int64_t value = -1;
+  H5Aread(attribute, H5T_NATIVE_INT64, &value);
+  return value;
+}
+
+/// Replaces `copy` by a copy of the temporary file in the directory.
+void copy_temporary(const std::string& directory, const std::string& copy) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(directory))
+    if (entry.path().filename().string().find(".tmp-") != std::string::npos)
+      fs::copy_file(entry.path(), copy, fs::copy_options::overwrite_existing);
+}
+
+// What a killed run leaves must not look like a whole mesh. Arrays are compared after the file has been flushed, so
+// rank 0 sees then what another program would see.
+TEST(MeshFile, SaysThatItIsCompleteOnlyAfterItIsVerified) {
+  const comm::Communicator comm = comm::Communicator::world();
+  const test::TemporaryDirectory directory(comm);
+  MeshFileOptions options = options_in(directory.path());
+  for (const std::int64_t complete : {1, 0}) {
+    options.overwrite = true;
+    check_output(options, comm);
+    const std::string copy = directory.path() + "/copy.h5";
+    int fills = 0;
+    const auto fill = [&](std::int64_t, std::int64_t, std::byte* out) {
+      const std::int32_t value = 7;
+      std::memcpy(out, &value, sizeof value);
+      ++fills;
+      if (comm.is_root())
+        copy_temporary(options.directory, copy);
+    };
+    const ExtraGroup group{"/extra", {}, {{"row", ValueType::int32, 0, comm.size(), {{comm.rank(), 1, fill}}}}};
+    write_mesh_and({{group}}, options, make_mesh(comm, 9), {{{"complete", complete}}, {}, {}}, comm);
+    EXPECT_GE(fills, 2) << "written and verified";
+    if (!comm.is_root())
+      continue;
+    EXPECT_EQ(completeness(copy), 0);
+    EXPECT_EQ(completeness(options.path(".h5")), complete);
   }
 }
 
