@@ -89,7 +89,7 @@ void read_formulas(const Settings& settings, const std::filesystem::path& direct
       options.fields.push_back(std::move(field));
     else // probably a mistake
       options.warnings.push_back(fmt::format(
-          "[field.{}] has no effect: no formula of a size that counts uses it, nor 'depth' in [output]", field.name));
+          "[field.{}] has no effect: neither a formula of a size nor 'depth' in [output] uses it", field.name));
 }
 
 } // namespace trime::app

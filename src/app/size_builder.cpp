@@ -192,7 +192,7 @@ std::string shares_of_sizes(const BuiltSize& size, const mesh::DistributedMesh& 
   comm::run_agreed(comm, [&] {
     PerThread<std::vector<std::int64_t>> counts(points);
     thread_loop(std::ssize(mesh.points), points_at_once, [&](std::ptrdiff_t k, int thread) {
-      ++counts[thread][size.minimum->ruler(mesh.points[static_cast<std::size_t>(k)])];
+      ++counts[thread][size.minimum->smallest_field(mesh.points[static_cast<std::size_t>(k)])];
     });
     for (const std::vector<std::int64_t>& its : counts)
       std::ranges::transform(points, its, points.begin(), std::plus<>());

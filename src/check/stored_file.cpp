@@ -237,7 +237,7 @@ struct ArrayReader {
   }
 };
 
-/// Of the vertices of triangles; files of earlier versions and large files have the longer one.
+/// The types that numbers of vertices may have; files of earlier versions and large files have the longer one.
 constexpr const char* id_types = "int32 or int64";
 
 /// Points, triangles and facets; points and triangles from the plain arrays where the file has them.

@@ -117,7 +117,8 @@ struct Patch {
   }
   /// See mesh::is_surely_below.
   bool is_surely_below(double limit, const Corners& corners) const;
-  /// Returns mesh::aspect_ratio, or infinity if the triangle has no area. If ears are to be divided, they have more.
+  /// Returns mesh::aspect_ratio, or infinity if the triangle has no area. If ear_alpha is above 0, an ear has that
+  /// much more, see is_ear().
   double alpha(const Corners& corners) const {
     return ear_alpha > 0 && is_ear(corners) ? ear_alpha + aspect_ratio(corners) : aspect_ratio(corners);
   }

@@ -47,7 +47,8 @@ void warn_of_one_thread() {
                  thread_count());
 }
 
-/// Whether the first call found a choice of the user, or came before MPI could open a file.
+/// Returns whether Open MPI surely uses the setting of avoid_wrong_writer(): at the first call of this function, the
+/// user had chosen a file writer, or MPI was not running yet and so had opened no file.
 bool writer_is_chosen_in_time() {
   static const bool in_time = !mpi_is_running() || std::getenv("OMPI_MCA_fcoll") != nullptr;
   return in_time;

@@ -17,11 +17,10 @@ using geometry::InnerArc;
 using geometry::Piece;
 using geometry::Vec2;
 
-constexpr double place_step = 0.1;  // [h] Distance of places along a curve next to circular pieces.
-constexpr double whole_part = 2;    // [h] Parts of a curve that are so long are looked at as a whole first.
-constexpr double grown = 1.5;       // [snap_distance] The distance at which that is done: h may grow along the part.
-constexpr double crossing_room = 1; // [h] Places of a curve that are nearer to its ends do not count.
-constexpr double most_places = 1e7; // Places along one piece. A longer one follows nothing.
+// [h] Places of a curve that are nearer to its ends do not count: it may cross the interface or end on it there.
+constexpr double crossing_room = 1;
+// Parts of one piece, and places along one part. A piece with more parts follows nothing.
+constexpr double most_places = 1e7;
 
 /// All circular pieces of interfaces.
 class CircularPieces {
@@ -49,14 +48,15 @@ public:
     const std::array<Vec2, 2> ends{curve.pieces.front().start, curve.pieces.back().end};
     for (const Piece& piece : curve.pieces) {
       const double whole = piece.length(), h = sizing::checked_size(size, piece.start);
-      const double parts = std::fmax(1, std::ceil(whole / (whole_part * h)));
-      for (double part = 0; part < std::fmin(parts, most_places); ++part) {
+      const double parts = std::fmax(1, std::ceil(whole / (GeneraliseRules::whole_part * h)));
+      for (double part = 0; part < parts && parts <= most_places; ++part) {
         const double way = whole / parts, middle = (part + 0.5) * way;
         const Vec2 p = piece.point(middle);
         const double here = sizing::checked_size(size, p);
-        if (tree_.within(p, 0.5 * way + grown * GeneraliseRules::snap_distance * here).empty())
+        if (tree_.within(p, 0.5 * way + GeneraliseRules::grown_distance * GeneraliseRules::snap_distance * here)
+                .empty())
           continue;
-        const double places = std::fmin(std::ceil(way / (place_step * here)), most_places);
+        const double places = std::fmin(std::ceil(way / (GeneraliseRules::place_step * here)), most_places);
         for (double k = 0; k < places; ++k)
           mark_near(piece.point(way * (part + (k + 0.5) / places)), curve.closed ? nullptr : &ends, size, is_followed);
       }

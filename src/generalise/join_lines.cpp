@@ -22,12 +22,6 @@ using geometry::InnerArc;
 using geometry::Piece;
 using geometry::Vec2;
 
-// [h] Distance of places along an arc next to other lines.
-constexpr double step = 0.1;
-// [h] Parts of an arc that are so long are looked at as a whole first.
-constexpr double stride = 2;
-// [rim_distance] The distance at which that is done: the size may grow along the part.
-constexpr double wider = 1.5;
 // [h] An end of an arc on another line moves to a vertex of that line that is so near to it.
 constexpr double vertex_reach = 0.25;
 // [h] Two ends on another line that are nearer to each other become one. Then both arcs still meet that line at more
@@ -227,14 +221,16 @@ private:
         if (all.size() >= most_places)
           return {};
         all.push_back(sample(arc, k, along, before));
-        const double h = all.back().h, next = std::fmin(whole, along + stride * h);
-        const std::vector<std::size_t> near = lines_.within(
-            pieces[k].point(0.5 * (along + next)), 0.5 * (next - along) + wider * GeneraliseRules::rim_distance * h);
+        const double h = all.back().h, next = std::fmin(whole, along + GeneraliseRules::whole_part * h);
+        const std::vector<std::size_t> near =
+            lines_.within(pieces[k].point(0.5 * (along + next)),
+                          0.5 * (next - along) + GeneraliseRules::grown_distance * GeneraliseRules::rim_distance * h);
         if (std::ranges::none_of(near, [&](std::size_t at) { return may_follow(arc, at); })) {
           along = next;
           continue;
         }
-        for (along += step * h; along < next && all.size() < most_places; along += step * all.back().h)
+        for (along += GeneraliseRules::place_step * h; along < next && all.size() < most_places;
+             along += GeneraliseRules::place_step * all.back().h)
           all.push_back(sample(arc, k, along, before));
         along = next;
       }

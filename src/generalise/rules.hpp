@@ -33,6 +33,12 @@ struct GeneraliseRules {
   /// [h] Largest distance between an arc of an interface and its chords, where the arc becomes chords because another
   /// line ends on it or follows it. Not measured.
   static constexpr double arc_depth = 0.02;
+  /// [h] Distance of the places along a curve at which its distance from other lines is measured. Not measured.
+  static constexpr double place_step = 0.1;
+  /// [h] Parts of a curve that are so long are looked at as a whole first; most have no other line near. Not measured.
+  static constexpr double whole_part = 2;
+  /// [1] They are searched at this multiple of the distance that counts, because h may grow along the part. Not measured.
+  static constexpr double grown_distance = 1.5;
   /// [rounds] Largest number of rounds in which loops that touch in a vertex are separated. Not measured.
   static constexpr int touch_rounds = 50;
   /// [h] A narrow part of the outside is widened only if a vertex there moves by more than this. Otherwise the next

@@ -56,7 +56,7 @@ struct ExtraGroup {
   }
 };
 
-/// What a caller adds to a mesh file, and the limit of its narrow ids.
+/// The arrays that a caller adds to a mesh file, and the largest number that the file stores as int32.
 struct ExtraContent {
   std::vector<ExtraGroup> groups;
   /// The largest offset for which vertices and offsets of triangles are stored as int32. Tests set a small one to write

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What rank 0 alone puts into an HDF5 file before the other ranks open it: groups, everything that is small, and arrays
-// that show others. So none of it needs a collective call. Nothing in this file communicates.
+// Lets rank 0 alone write the beginning of an HDF5 file before the other ranks open it: groups, everything that is
+// small, and arrays that show others. So none of it needs a collective call. Nothing in this file communicates.
 #pragma once
 
 #include "io/hdf5_handle.hpp"
@@ -22,8 +22,8 @@ struct ArrayShape {
 
 /// @brief An array that shows the values of another array of the same file in another shape, and takes no room; a
 /// virtual dataset of HDF5. The source has the same number of values, which are shown in its order, or the same rows
-/// and fewer columns, which are shown as the first ones. The values of other columns are 0. HDF5 1.10.8
-/// cannot read such an array if the file was opened by MPI-IO; other versions were not tried.
+/// and fewer columns, which are shown as the first ones. The values of other columns are 0. HDF5 1.10.8 cannot
+/// read such an array if the file was opened by MPI-IO; other versions were not tried.
 struct VirtualArray {
   std::string path;
   hid_t type = -1; ///< native type of one value

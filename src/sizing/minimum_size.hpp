@@ -17,8 +17,8 @@ public:
   explicit MinimumSize(std::vector<const SizeField*> fields) : fields_(std::move(fields)) {}
   /// Returns the smallest size at p, or the first invalid one, so that the caller notices it.
   double size(geometry::Vec2 p) const override { return at(p).size; }
-  /// Returns which field is the smallest one at p; the first of several equal ones.
-  std::size_t ruler(geometry::Vec2 p) const { return at(p).field; }
+  /// Returns the index of the field that is the smallest one at p; the first of several equal ones.
+  std::size_t smallest_field(geometry::Vec2 p) const { return at(p).field; }
   bool jumps() const override;
   std::size_t memory_bytes() const override;
 

@@ -57,7 +57,7 @@ struct MeshOptions {
   double worst_alpha =
       5; ///< a triangle with a larger alpha, R/(2r), fails a check, unless it lies at a corner below 60 degrees
   bool cleanup = true; ///< whether the worst triangles are improved after the sweeps
-  /// Whether the clean-up divides triangles with two boundary edges, where the corner has 60 degrees or more.
+  /// If true, the clean-up divides triangles with two boundary edges, where the corner has 60 degrees or more.
   bool split_ears = false;
   /// 0: no snapshots; -2: one snapshot of the first triangulation; n > 0: snapshots of the first and of every n-th
   /// triangulation.

@@ -25,11 +25,11 @@ TEST(MinimumSize, IsTheSmallestOneAndNamesIt) {
   const UniformSize level(1.4);
   const MinimumSize smallest({&falling, &rising, &level});
   EXPECT_EQ(smallest.size({0, 0}), 1);
-  EXPECT_EQ(smallest.ruler({0, 0}), 1U);
+  EXPECT_EQ(smallest.smallest_field({0, 0}), 1U);
   EXPECT_EQ(smallest.size({0.5, 0}), 1.4);
-  EXPECT_EQ(smallest.ruler({0.5, 0}), 2U);
+  EXPECT_EQ(smallest.smallest_field({0.5, 0}), 2U);
   EXPECT_EQ(smallest.size({1, 0}), 1);
-  EXPECT_EQ(smallest.ruler({1, 0}), 0U);
+  EXPECT_EQ(smallest.smallest_field({1, 0}), 0U);
   EXPECT_FALSE(smallest.is_uniform());
   EXPECT_FALSE(smallest.jumps());
 }
