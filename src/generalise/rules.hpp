@@ -37,7 +37,8 @@ struct GeneraliseRules {
   static constexpr double place_step = 0.1;
   /// [h] Parts of a curve that are so long are looked at as a whole first; most have no other line near. Not measured.
   static constexpr double whole_part = 2;
-  /// [1] They are searched at this multiple of the distance that counts, because h may grow along the part. Not measured.
+  /// [1] They are searched at this multiple of the distance that counts, because h may grow along the part. Not
+  /// measured.
   static constexpr double grown_distance = 1.5;
   /// [rounds] Largest number of rounds in which loops that touch in a vertex are separated. Not measured.
   static constexpr int touch_rounds = 50;

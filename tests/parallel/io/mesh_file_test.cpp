@@ -409,8 +409,8 @@ void copy_temporary(const std::string& directory, const std::string& copy) {
       fs::copy_file(entry.path(), copy, fs::copy_options::overwrite_existing);
 }
 
-// The temporary file of a killed run must not look like a whole mesh. Arrays are compared after the file has been flushed, so
-// rank 0 sees then what another program would see.
+// The temporary file of a killed run must not look like a whole mesh. Arrays are compared after the file has been
+// flushed, so rank 0 sees then what another program would see.
 TEST(MeshFile, SaysThatItIsCompleteOnlyAfterItIsVerified) {
   const comm::Communicator comm = comm::Communicator::world();
   const test::TemporaryDirectory directory(comm);
