@@ -37,7 +37,7 @@ std::size_t at(LocalIndex index) {
 /// Collects the values of one rule on this rank.
 struct Tally {
   SolverRule rule;
-  std::int64_t measured = 0, broken = 0;
+  std::int64_t measured = 0, broken = 0, ears = 0;
   double worst = -none; // as badness(): larger is worse
   double item = none;   // number of the first item with the worst value; exact, since it is below 2^53
   Vec2 place{};
@@ -47,10 +47,12 @@ struct Tally {
     return std::isnan(value) ? std::numeric_limits<double>::infinity() : rule.is_least ? -value : value;
   }
 
-  void add(double value, GlobalId number, Vec2 where) {
-    ++measured;
-    broken += badness(value) > badness(rule.limit) + rounding * std::fabs(rule.limit);
+  void add(double value, GlobalId number, Vec2 where, bool is_ear = false) {
     const double bad = badness(value);
+    const bool is_broken = bad > badness(rule.limit) + rounding * std::fabs(rule.limit);
+    ++measured;
+    broken += is_broken;
+    ears += is_broken && is_ear;
     const auto its = static_cast<double>(number);
     if (bad < worst || (bad == worst && its >= item))
       return;
@@ -125,9 +127,9 @@ private:
     return std::ranges::any_of(
         some, [&](Measure measure) { return !of_measure_[static_cast<std::size_t>(measure)].empty(); });
   }
-  void add(Measure measure, double value, GlobalId number, Vec2 where) const {
+  void add(Measure measure, double value, GlobalId number, Vec2 where, bool is_ear = false) const {
     for (Tally* tally : of_measure_[static_cast<std::size_t>(measure)])
-      tally->add(value, number, where);
+      tally->add(value, number, where, is_ear);
   }
   template <class Visit>
   void for_each_side(const Visit& visit) const;
@@ -153,13 +155,14 @@ void Judge::triangles() const {
     if (wants({Measure::largest_angle}))
       add(Measure::largest_angle, has_area ? mesh::max_angle_degrees(p[0], p[1], p[2]) : NAN, number, middle);
     add(Measure::skewness, skewness_of(p), number, middle);
-    add(Measure::boundary_edges, edges[at(t)], number, middle);
+    const bool is_ear = edges[at(t)] == 2;
+    add(Measure::boundary_edges, edges[at(t)], number, middle, is_ear);
     double marks = 0, marked = 0;
     for (const LocalIndex corner : mesh_.triangles[at(t)]) {
       marks += marks_[at(corner)];
       marked += marks_[at(corner)] > 0;
     }
-    add(Measure::boundary_corners, marked, number, middle);
+    add(Measure::boundary_corners, marked, number, middle, is_ear);
     add(Measure::boundary_marks, marks, number, middle);
   }
 }
@@ -282,7 +285,7 @@ std::vector<Verdict> combined(const std::vector<Tally>& here, const comm::Commun
   std::vector<std::int64_t> counts;
   std::vector<double> worst, first;
   for (const Tally& tally : here) {
-    counts.insert(counts.end(), {tally.measured, tally.broken});
+    counts.insert(counts.end(), {tally.measured, tally.broken, tally.ears});
     worst.push_back(tally.worst);
   }
   comm.sum_and_max(counts, worst);
@@ -298,8 +301,9 @@ std::vector<Verdict> combined(const std::vector<Tally>& here, const comm::Commun
   std::vector<Verdict> verdicts;
   for (std::size_t k = 0; k < here.size(); ++k) {
     const SolverRule& rule = here[k].rule;
-    const double value = counts[2 * k] == 0 ? rule.limit : rule.is_least ? -worst[k] : worst[k];
-    verdicts.push_back({rule, counts[2 * k], counts[2 * k + 1], value, {places[2 * k], places[2 * k + 1]}});
+    const std::int64_t* count = &counts[3 * k];
+    const double value = count[0] == 0 ? rule.limit : rule.is_least ? -worst[k] : worst[k];
+    verdicts.push_back({rule, count[0], count[1], count[2], value, {places[2 * k], places[2 * k + 1]}});
     if (!verdicts.back().has_place())
       verdicts.back().place = {NAN, NAN};
   }
@@ -308,6 +312,8 @@ std::vector<Verdict> combined(const std::vector<Tally>& here, const comm::Commun
 
 /// The name of a measure in a sentence.
 std::string words_of(Measure measure) {
+  if (measure == Measure::boundary_corners) // "boundary corners" would be those of the shape
+    return "corners on the boundary";
   std::string words(name_of(measure));
   std::ranges::replace(words, '_', ' ');
   return words;
@@ -345,13 +351,13 @@ std::vector<Verdict> judge(const mesh::DistributedMesh& mesh, std::span<const So
   return combined(tallies, comm);
 }
 
-std::string text_of(const Verdict& v) {
+std::string text_of(const Verdict& v, bool splits_ears) {
   const std::string where = v.has_place() ? fmt::format(" at {}", Place(v.place, 6)) : "";
-  return fmt::format("{}: {} {:.4g}{}, expected at {} {:g}; {} of {} {} break this rule{}: {}", word_of(v.rule.solver),
-                     words_of(v.rule.measure), v.worst, where, v.rule.is_least ? "least" : "most", v.rule.limit,
-                     v.broken, v.measured, v.rule.breakers,
+  return fmt::format("{}: {} {:.4g}{}, expected at {} {:g}; {} of {} {} break this rule{}: {}{}",
+                     word_of(v.rule.solver), words_of(v.rule.measure), v.worst, where,
+                     v.rule.is_least ? "least" : "most", v.rule.limit, v.broken, v.measured, v.rule.breakers,
                      v.rule.refuses ? fmt::format(", and {} refuses the mesh", word_of(v.rule.solver)) : "",
-                     v.rule.advice);
+                     v.rule.advice, v.ears > 0 && !splits_ears ? v.rule.advice_on_ears : "");
 }
 
 } // namespace trime::acceptance

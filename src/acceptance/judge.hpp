@@ -21,6 +21,7 @@ struct Verdict {
   SolverRule rule;
   std::int64_t measured = 0; ///< triangles, points or pairs that were measured
   std::int64_t broken = 0;   ///< number of them that break the rule
+  std::int64_t ears = 0;     ///< number of these that are triangles with two boundary edges
   double worst = 0;          ///< the worst value; the limit if nothing was measured; infinite, with the sign of the
                              ///< worse side, if one is not a number, as of a triangle without an area
   geometry::Vec2 place;      ///< place of the first item with the worst value; NaN if has_place() is false
@@ -59,6 +60,7 @@ struct FlowLink {
 FlowLink flow_link(const std::array<geometry::Vec2, 2>& side, geometry::Vec2 c, geometry::Vec2 d);
 
 /// Returns one line about a broken rule: how often, the worst value and its place, and what to do.
-std::string text_of(const Verdict& verdict);
+/// @param splits_ears whether the mesh was made with split_ears
+std::string text_of(const Verdict& verdict, bool splits_ears);
 
 } // namespace trime::acceptance

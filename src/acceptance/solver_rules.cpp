@@ -33,10 +33,10 @@ constexpr double right_angle = 90;
 
 constexpr const char* finer = "use smaller triangles or a smoother size there";
 constexpr const char* gentler = "use a smaller gradation in [sizing]";
-constexpr const char* corner =
-    "set split_ears = true in [meshing]; where the corner has less than 60 degrees, cut it off or make it wider";
-constexpr const char* narrow =
-    "use smaller triangles in narrow channels; in corners of 60 degrees or more, split_ears = true in [meshing] helps";
+constexpr const char* corner = "cut the corner off, or make it wider";
+constexpr const char* narrow = "use smaller triangles in narrow channels";
+constexpr const char* split =
+    "; split_ears = true in [meshing] divides those with two boundary edges in corners of 60 degrees or more";
 constexpr const char* open_end = "let the open boundary meet the land at a right angle, or use smaller triangles there";
 constexpr const char* untouched = "move the boundaries apart";
 
@@ -51,13 +51,13 @@ constexpr SolverRule table[] = {
     {Solver::schism, Measure::boundary_paths, false, 1, true, "points", untouched},
     {Solver::schism, Measure::looped_open_boundary, false, 0, true, "loops",
      "give a part of the boundary a name that open_boundary in [output] does not have"},
-    {Solver::telemac, Measure::boundary_corners, false, 2, false, "triangles", narrow},
+    {Solver::telemac, Measure::boundary_corners, false, 2, false, "triangles", narrow, split},
     {Solver::telemac, Measure::boundary_paths, false, 1, true, "points", untouched},
     {Solver::fvcom, Measure::least_angle, true, fvcom_least_angle, false, "triangles", finer},
     {Solver::fvcom, Measure::largest_angle, false, fvcom_largest_angle, false, "triangles", finer},
     {Solver::fvcom, Measure::area_share, true, fvcom_area_share, false, "pairs of triangles", gentler},
     {Solver::fvcom, Measure::triangles_at_point, false, fvcom_most_triangles, false, "points", gentler},
-    {Solver::fvcom, Measure::boundary_edges, false, 1, false, "triangles", corner},
+    {Solver::fvcom, Measure::boundary_edges, false, 1, false, "triangles", corner, split},
     {Solver::fvcom, Measure::boundary_marks, false, fvcom_most_marks, true, "triangles", open_end},
     {Solver::fvcom, Measure::boundary_paths, false, 1, true, "points", untouched},
     {Solver::delft3d, Measure::link_cosine, false, delft3d_stop_cosine, true, "links", finer},

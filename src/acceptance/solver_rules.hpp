@@ -35,9 +35,10 @@ struct SolverRule {
   Measure measure;
   bool is_least; ///< the limit is the smallest allowed value; otherwise the largest one
   double limit;
-  bool refuses;         ///< the solver stops, or computes on another mesh, where the rule is broken
-  const char* breakers; ///< what breaks the rule, in the plural
-  const char* advice;   ///< what the user can do about it
+  bool refuses;                    ///< the solver stops, or computes on another mesh, where the rule is broken
+  const char* breakers;            ///< what breaks the rule, in the plural
+  const char* advice;              ///< what the user can do about it
+  const char* advice_on_ears = ""; ///< more advice where ears break the rule and are not split
 };
 
 /// @brief Returns all rules, those of one solver next to each other. Sources:

@@ -50,7 +50,7 @@ std::vector<Verdict> judge_mesh(const AcceptanceInput& input, meshing::MeshResul
   return verdicts;
 }
 
-void print_verdicts(const std::vector<Verdict>& verdicts, Log& log) {
+void print_verdicts(const std::vector<Verdict>& verdicts, bool splits_ears, Log& log) {
   for (std::size_t first = 0, end = 0; first < verdicts.size(); first = end) {
     const acceptance::Solver solver = verdicts[first].rule.solver;
     const auto is_other = [&](const Verdict& verdict) { return verdict.rule.solver != solver; };
@@ -61,7 +61,7 @@ void print_verdicts(const std::vector<Verdict>& verdicts, Log& log) {
     log.summary("accept {}: {} of {} rules hold", acceptance::word_of(solver), held, end - first);
     for (std::size_t k = first; k < end; ++k)
       if (!verdicts[k].holds())
-        log.warning("{}", acceptance::text_of(verdicts[k]));
+        log.warning("{}", acceptance::text_of(verdicts[k], splits_ears));
   }
 }
 

@@ -27,8 +27,8 @@ std::vector<acceptance::Verdict> judge_mesh(const AcceptanceInput& input, meshin
 /// Returns the name of the check in a mesh file for a rule whose breaking makes the model refuse the mesh.
 std::string check_name(const acceptance::SolverRule& rule);
 
-/// Prints one line for each solver, and a warning for each broken rule.
-void print_verdicts(const std::vector<acceptance::Verdict>& verdicts, Log& log);
+/// Prints one line for each solver, and a warning for each broken rule. @param splits_ears see acceptance::text_of
+void print_verdicts(const std::vector<acceptance::Verdict>& verdicts, bool splits_ears, Log& log);
 
 /// Returns the verdicts as a group of the mesh file, with one row for each rule.
 io::MetadataGroup accept_group(const std::vector<acceptance::Verdict>& verdicts);

@@ -125,7 +125,7 @@ void read_geometry(const Settings& settings, const std::set<int>& in_regions, Ru
                    Diagnostics& problems) {
   options.geometry = settings.text("shape", "geometry");
   if (options.geometry.empty()) {
-    if (!settings.is_set("shape", "geometry"))
+    if (!settings.is_set("shape", "geometry") && !settings.has_unknown_section())
       problems.add(whole_file, settings.parts().empty()
                                    ? "no shape is given: set 'geometry' in [shape] and describe its parts, or set "
                                      "'geometry = domain' to mesh the whole container"
@@ -214,7 +214,7 @@ void read_resolution(const Settings& settings, const geometry::Box& container, m
     problems.add(settings.line("meshing", "edge_length"),
                  "'edge_length' in [meshing] has no meaning with 'scale = absolute' in [sizing], because the sizes are "
                  "lengths already; leave it out, or set 'scale = fit'");
-  if (!points && !length && !mesh.absolute_sizes)
+  if (!points && !length && !mesh.absolute_sizes && !settings.has_unknown_section())
     problems.add(whole_file, "set 'points' or 'edge_length' in [meshing], for example 'points = 5000'");
   const double area = container.width() * container.height();
   const double expected = mesh.edge_length ? area / (row_height * *mesh.edge_length * *mesh.edge_length) : 0;
@@ -373,6 +373,22 @@ std::optional<std::vector<std::string>> read_open_boundary(const std::string& te
   return names;
 }
 
+void read_courant(const Settings& settings, RunOptions& options, Diagnostics& problems) {
+  options.courant.time_step = settings.optional_number("output", "time_step").value_or(0);
+  options.courant.limit = settings.number("output", "courant");
+  const bool has_step = options.courant.time_step > 0;
+  if (has_step && settings.text("output", "depth") == "none")
+    problems.add(settings.line("output", "time_step"),
+                 "'time_step' in [output] needs 'depth', from which the speed of waves follows");
+  if (has_step && (options.periodic_x || options.periodic_y))
+    problems.add(settings.line("output", "time_step"),
+                 "'time_step' in [output]: Courant numbers are not known for a periodic container; remove the key");
+  // Its default is not worth a word: printed configs hold it.
+  if (!has_step && settings.text("output", "courant") != find_option("output", "courant")->fallback &&
+      !settings.was_refused("output", "time_step"))
+    options.warnings.push_back("'courant' in [output] has no effect without 'time_step', the time step of the model");
+}
+
 void read_output(const Settings& settings, RunOptions& options, Diagnostics& problems) {
   io::MeshFileOptions& file = options.output.file;
   file.directory = settings.text("output", "directory");
@@ -381,7 +397,7 @@ void read_output(const Settings& settings, RunOptions& options, Diagnostics& pro
   const std::int64_t interval = settings.integer("output", "interval");
   options.write = interval != 0;
   options.output.formats.clear();
-  for (const std::string& word : split_words(settings.text("output", "formats")))
+  for (const std::string& word : split_list(settings.text("output", "formats")))
     options.output.formats.push_back(*formats::format_of_word(word)); // the table of options has all these words
   const auto is_refused = [](formats::Format format) { return !formats::info_of(format).holds_periodic; };
   const auto& formats = options.output.formats;
@@ -397,17 +413,10 @@ void read_output(const Settings& settings, RunOptions& options, Diagnostics& pro
     if (const std::string problem = formats::cells_problem(format, options.output.names.cells); !problem.empty())
       problems.add(settings.line("output", "cells"), "'cells' in [output]: " + problem);
   options.output.names.in_degrees = settings.text("output", "coordinates") == "degrees";
-  for (const std::string& word : split_words(settings.text("output", "accept")))
+  for (const std::string& word : split_list(settings.text("output", "accept")))
     if (const std::optional<acceptance::Solver> solver = acceptance::solver_of_word(word))
       options.accept.push_back(*solver);
-  options.courant.time_step = settings.optional_number("output", "time_step").value_or(0);
-  options.courant.limit = settings.number("output", "courant");
-  if (options.courant.time_step > 0 && settings.text("output", "depth") == "none")
-    problems.add(settings.line("output", "time_step"),
-                 "'time_step' in [output] needs 'depth', from which the speed of waves follows");
-  if (options.courant.time_step > 0 && (options.periodic_x || options.periodic_y))
-    problems.add(settings.line("output", "time_step"),
-                 "'time_step' in [output]: Courant numbers are not known for a periodic container; remove the key");
+  read_courant(settings, options, problems);
   options.mesh.snapshot_interval = interval == -1 ? 0 : static_cast<int>(interval);
   options.output.steps = options.mesh.snapshot_interval != 0;
   check_name(settings, file.name, problems);

@@ -2,6 +2,7 @@
 #include "app/convert.hpp"
 
 #include "core/quoted.hpp"
+#include "formats/open_boundary.hpp"
 #include "formats/output_files.hpp"
 #include "io/split_counts.hpp"
 #include "record/groups.hpp"
@@ -213,6 +214,7 @@ std::string quality_text(const Metadata& metadata) {
                                    {"alpha mean", "alpha_mean"},
                                    {"alpha max", "alpha_max"},
                                    {"smallest angle", "min_angle_degrees"},
+                                   {"shortest edge", "shortest_edge"},
                                    {"size error mean", "size_mean"}})
     for (const io::Attribute& attribute : quality->attributes)
       if (attribute.name == name && std::holds_alternative<double>(attribute.value))
@@ -220,6 +222,77 @@ std::string quality_text(const Metadata& metadata) {
   for (const io::Attribute& attribute : quality->attributes)
     if (attribute.name == "obtuse_triangles" && std::holds_alternative<std::int64_t>(attribute.value))
       text += fmt::format("{:<15} {}\n", "obtuse", std::get<std::int64_t>(attribute.value));
+  return text;
+}
+
+template <class T>
+T value_of(const io::MetadataGroup& group, const char* name) {
+  for (const io::Attribute& attribute : group.attributes)
+    if (attribute.name == name)
+      if (const T* value = std::get_if<T>(&attribute.value))
+        return *value;
+  throw FileError(
+      fmt::format("/trime_mpi/{} has no attribute '{}' of the expected type; the file is damaged", group.name, name));
+}
+
+/// Which parts of the boundary are open in files for coastal models; nothing if none is.
+std::string open_boundary_text(const Metadata& metadata) {
+  const formats::Names names = names_of(metadata);
+  const std::vector<bool> open = formats::open_parts(names);
+  if (std::ranges::find(open, true) == open.end())
+    return {};
+  std::string text;
+  for (std::size_t part = 0; part < open.size(); ++part)
+    if (open[part])
+      text += (text.empty() ? "open boundary " : ", ") + names.parts[part];
+  return text + "\n";
+}
+
+/// The depths and the Courant numbers that follow from them; nothing if the run asked for none.
+std::string depth_text(const Metadata& metadata) {
+  std::string text;
+  if (const io::MetadataGroup* depth = io::find_group(metadata, "depth"))
+    text += fmt::format("\ndepths          from {:.6g} to {:.6g}, positive at {} of {} points\n",
+                        value_of<double>(*depth, "least"), value_of<double>(*depth, "most"),
+                        value_of<std::int64_t>(*depth, "positive"), value_text(metadata, "points"));
+  if (const io::MetadataGroup* courant = io::find_group(metadata, "courant"))
+    text +=
+        fmt::format("Courant         time step {:g} s: {} of {} triangles above {:g}, the largest {:.3g} at ({:.9g}, "
+                    "{:.9g}); {} without a positive depth\n",
+                    value_of<double>(*courant, "time_step"), value_of<std::int64_t>(*courant, "above"),
+                    value_text(metadata, "triangles"), value_of<double>(*courant, "limit"),
+                    value_of<double>(*courant, "largest"), value_of<double>(*courant, "largest_x"),
+                    value_of<double>(*courant, "largest_y"), value_of<std::int64_t>(*courant, "dry"));
+  return text;
+}
+
+/// The rules of models; nothing if the run asked for none.
+std::string accept_text(const Metadata& metadata) {
+  const char* table = "accept";
+  if (!io::find_group(metadata, table))
+    return {};
+  std::string text = "\naccept   rule                  limit        worst        broken\n";
+  const auto& solvers = io::column_of<std::string>(metadata, table, "solver");
+  for (std::size_t k = 0; k < solvers.size(); ++k)
+    text += fmt::format(
+        "{:<8} {:<21} {:<2} {:<9.4g} {:<12.6g} {} of {}{}\n", solvers[k], row<std::string>(metadata, table, "rule", k),
+        row<std::int32_t>(metadata, table, "is_least", k) != 0 ? ">=" : "<=", row<double>(metadata, table, "limit", k),
+        row<double>(metadata, table, "worst", k), row<std::int64_t>(metadata, table, "broken", k),
+        row<std::int64_t>(metadata, table, "measured", k),
+        row<std::int64_t>(metadata, table, "broken", k) > 0 && row<std::int32_t>(metadata, table, "refuses", k) != 0
+            ? ", REFUSED"
+            : "");
+  return text;
+}
+
+/// How many points have each of several sizes as the smallest one; nothing if there is one size.
+std::string sizes_text(const Metadata& metadata) {
+  if (!io::find_group(metadata, "sizes"))
+    return {};
+  std::string text = "\nsmallest size   points\n";
+  const auto& names = io::column_of<std::string>(metadata, "sizes", "name");
+  for (std::size_t k = 0; k < names.size(); ++k)
+    text += fmt::format("{:<15} {}\n", names[k], row<std::int64_t>(metadata, "sizes", "points", k));
   return text;
 }
 
@@ -262,8 +335,10 @@ void print_cells(const formats::Exported& made, Log& log) {
 }
 
 std::string info(const std::string& path, bool prints_all, const comm::Communicator& comm) {
-  const Metadata metadata =
-      io::read_metadata(path, {"checks", "quality", "tags", "curves", "interfaces", "regions", "region_losses"}, comm);
+  const Metadata metadata = io::read_metadata(path,
+                                              {"checks", "quality", "tags", "curves", "interfaces", "regions",
+                                               "region_losses", "depth", "courant", "accept", "sizes"},
+                                              comm);
   std::string text = fmt::format("{}: {} points, {} triangles{}\n", path, value_text(metadata, "points"),
                                  value_text(metadata, "triangles"), is_marked(metadata) ? "; NOT complete" : "");
   text += made_text(metadata);
@@ -271,9 +346,10 @@ std::string info(const std::string& path, bool prints_all, const comm::Communica
     text += fmt::format("periodic      with sides of {:.9g} and {:.9g} (0: not periodic)\n", names.period.x,
                         names.period.y);
   ListLimit limit(prints_all);
-  text += boundary_text(metadata, limit);
+  text += boundary_text(metadata, limit) + open_boundary_text(metadata);
   text += splits_text(io::count_splits(path, comm)) + regions_text(metadata, limit);
-  text += losses_text(metadata, limit) + checks_text(metadata) + quality_text(metadata);
+  text += losses_text(metadata, limit) + checks_text(metadata) + quality_text(metadata) + sizes_text(metadata) +
+          depth_text(metadata) + accept_text(metadata);
   if (limit.is_reached())
     text += fmt::format("\n'trime_mpi info {} --all' prints whole lists\n", path);
   return text + fmt::format("\nmesh hash     {}\n", value_text(metadata, "mesh_hash_hex"));

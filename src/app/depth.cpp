@@ -6,30 +6,53 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
+#include <string>
+#include <string_view>
 
 namespace trime::app {
 
 namespace {
 
-struct DepthRange {
-  std::int64_t numbers = 0, negative = 0; // points
-  double least = INFINITY, most = -INFINITY;
-};
+// [1] If a larger share of the points has no positive depth, the sign of the depth is probably wrong.
+constexpr double most_dry = 0.5;
 
-/// Collective.
-DepthRange range_of(const UnsetVector<double>& depth, const comm::Communicator& comm) {
-  DepthRange range;
-  for (const double value : depth)
-    if (std::isfinite(value)) {
-      ++range.numbers;
-      range.negative += value < 0;
-      range.least = std::fmin(range.least, value);
-      range.most = std::fmax(range.most, value);
-    }
-  std::array sums{range.numbers, range.negative};
-  comm.sum(sums);
-  return {sums[0], sums[1], comm.min(range.least), comm.max(range.most)};
+void count(double depth, DepthSummary& summary) {
+  ++summary.points;
+  if (!std::isfinite(depth))
+    return;
+  ++summary.numbers;
+  summary.positive += depth > 0;
+  summary.negative += depth < 0;
+  summary.least = std::fmin(summary.least, depth);
+  summary.most = std::fmax(summary.most, depth);
+}
+
+bool is_variable(std::string_view text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
+    return c == '_' || std::isalnum(static_cast<unsigned char>(c)) != 0;
+  });
+}
+
+/// The formula with the other sign.
+std::string negated(const std::string& formula) {
+  if (is_variable(formula))
+    return "-" + formula;
+  return formula.starts_with('-') && is_variable(std::string_view(formula).substr(1)) ? formula.substr(1)
+                                                                                      : fmt::format("-({})", formula);
+}
+
+/// @param where_they_are "of the mesh", for example
+void warn_of_depths(const DistanceFormula& formula, const DepthSummary& s, const char* where_they_are, Log& log) {
+  if (s.numbers < s.points)
+    log.warning("{}: '{}' is not a number at {} of {} points {}, the first one at {}", formula.where(), formula.text(),
+                s.points - s.numbers, s.points, where_they_are, Place(s.first_without, 6));
+  if (const std::int64_t dry = s.numbers - s.positive;
+      static_cast<double>(dry) > most_dry * static_cast<double>(s.points))
+    log.warning("{}: '{}' is not positive at {} of {} points {}, which are dry then: depths are positive downwards. If "
+                "the sign is wrong, write 'depth = {}'",
+                formula.where(), formula.text(), dry, s.points, where_they_are, negated(formula.text()));
 }
 
 /// The place of the first point without a number. Collective.
@@ -47,9 +70,23 @@ geometry::Vec2 first_without(const mesh::DistributedMesh& mesh, const comm::Comm
   return {place[0], place[1]};
 }
 
+/// Collective.
+DepthSummary summary_of(const mesh::DistributedMesh& mesh, const comm::Communicator& comm) {
+  DepthSummary here;
+  for (const double depth : *mesh.depth)
+    count(depth, here);
+  std::array sums{here.points, here.numbers, here.positive, here.negative};
+  comm.sum(sums);
+  DepthSummary all{sums[0], sums[1], sums[2], sums[3], comm.min(here.least), comm.max(here.most), {}};
+  if (all.numbers < all.points)
+    all.first_without = first_without(mesh, comm);
+  return all;
+}
+
 } // namespace
 
-void add_depth(const DistanceFormula& formula, meshing::MeshResult& result, const comm::Communicator& comm, Log& log) {
+DepthSummary add_depth(const DistanceFormula& formula, meshing::MeshResult& result, const comm::Communicator& comm,
+                       Log& log) {
   mesh::DistributedMesh& mesh = result.mesh;
   UnsetVector<double>& depth = mesh.depth.emplace();
   depth.resize(mesh.points.size());
@@ -58,19 +95,38 @@ void add_depth(const DistanceFormula& formula, meshing::MeshResult& result, cons
     const auto k = static_cast<std::size_t>(item);
     depth[k] = formula.evaluate(mesh.points[k].x, mesh.points[k].y);
   });
-  const DepthRange range = range_of(depth, comm);
-  const std::int64_t expected = mesh.point_slab.total;
-  result.checks.push_back({"depths", static_cast<double>(expected), static_cast<double>(range.numbers),
-                           range.numbers == expected,
+  const DepthSummary summary = summary_of(mesh, comm);
+  result.checks.push_back({"depths", static_cast<double>(summary.points), static_cast<double>(summary.numbers),
+                           summary.numbers == summary.points,
                            fmt::format("points whose depth is a number; 'depth = {}' in [output] must be one at every "
                                        "point of the mesh",
                                        formula.text())});
-  if (range.numbers < expected)
-    log.warning("{}: '{}' is not a number at {} of {} points of the mesh, the first one at {}", formula.where(),
-                formula.text(), expected - range.numbers, expected, Place(first_without(mesh, comm), 6));
-  if (range.numbers > 0)
-    log.summary("depths from {:.6g} to {:.6g}; {} of {} points have a negative depth", range.least, range.most,
-                range.negative, expected);
+  warn_of_depths(formula, summary, "of the mesh", log);
+  if (summary.numbers > 0)
+    log.summary("depths from {:.6g} to {:.6g}; {} of {} points have a negative depth", summary.least, summary.most,
+                summary.negative, summary.points);
+  return summary;
+}
+
+io::MetadataGroup group_of(const DepthSummary& summary) {
+  return {"depth",
+          {{"numbers", summary.numbers},
+           {"positive", summary.positive},
+           {"negative", summary.negative},
+           {"least", summary.least},
+           {"most", summary.most}},
+          {}};
+}
+
+void try_depth(const DistanceFormula& formula, std::span<const geometry::Vec2> places, Log& log) {
+  DepthSummary summary;
+  for (const geometry::Vec2 p : places) {
+    const double depth = formula.evaluate(p.x, p.y);
+    if (!std::isfinite(depth) && summary.numbers == summary.points)
+      summary.first_without = p;
+    count(depth, summary);
+  }
+  warn_of_depths(formula, summary, "where the shape was tried", log);
 }
 
 } // namespace trime::app

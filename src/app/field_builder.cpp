@@ -93,6 +93,12 @@ std::vector<BuiltField> read_fields(const RunOptions& options, const ShapeInput&
     fields::ReadField read = fields::read_field(request, where, field.to_file, comm);
     field.field = std::move(read.field);
     field.hash = read.hash;
+    if (one.smooth > 0 && one.smooth <= std::fmin(read.cell.x, read.cell.y))
+      field.warning =
+          fmt::format("'smooth = {:g}' in [field.{}] has no effect: it is a length in the unit of the mesh, "
+                      "and shorter than the cells of the raster, which are {:.3g} x {:.3g}; take the length "
+                      "of several cells",
+                      one.smooth, one.name, read.cell.x, read.cell.y);
     built.push_back(std::move(field));
   }
   return built;

@@ -594,15 +594,17 @@ const Option table[] = {
      .kind = OptionKind::words,
      .fallback = "none",
      .choices = accept_words(),
-     .meaning = "models that will use the mesh, separated by blanks: the mesh is measured by their rules, such as the "
+     .meaning = "models that will use the mesh: the mesh is measured by their rules, such as the "
                 "least angle. A rule that makes the model refuse the mesh is a check, any other one gives a warning"},
     {.section = "output",
      .key = "time_step",
      .fallback = "none",
      .choices = "none",
      .range = positive,
-     .meaning = "time step of the model that will use the mesh [s]: the report says how many triangles have a Courant "
-                "number sqrt(9.81 depth) time_step / (shortest edge) above `courant`; lengths are in metres"},
+     .meaning =
+         "time step of the model that will use the mesh [s]: the report says how many triangles have a Courant "
+         "number sqrt(9.81 depth) time_step / (shortest edge) above `courant`. The depth is the mean of those of the "
+         "three corners; triangles where it is not positive are dry and do not count. Lengths are in metres"},
     {.section = "output",
      .key = "courant",
      .fallback = "1",
@@ -659,6 +661,18 @@ void add_once(std::vector<std::string>& names, const char* name) {
     names.emplace_back(name);
 }
 
+std::vector<std::string> split_at(std::string_view separators, std::string_view text) {
+  std::vector<std::string> words;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t first = text.find_first_not_of(separators, at);
+    if (first == std::string_view::npos)
+      break;
+    at = std::min(text.find_first_of(separators, first), text.size());
+    words.emplace_back(text.substr(first, at - first));
+  }
+  return words;
+}
+
 } // namespace
 
 std::span<const Option> option_table() {
@@ -697,15 +711,11 @@ std::vector<std::string> key_names(std::string_view section) {
 }
 
 std::vector<std::string> split_words(std::string_view text) {
-  std::vector<std::string> words;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t first = text.find_first_not_of(" \t", at);
-    if (first == std::string_view::npos)
-      break;
-    at = std::min(text.find_first_of(" \t", first), text.size());
-    words.emplace_back(text.substr(first, at - first));
-  }
-  return words;
+  return split_at(" \t", text);
+}
+
+std::vector<std::string> split_list(std::string_view text) {
+  return split_at(" \t,", text);
 }
 
 } // namespace trime::app

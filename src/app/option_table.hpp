@@ -19,7 +19,7 @@ struct Range {
   bool low_excluded = false;
 };
 
-/// One key of a config. A list of words is separated by blanks.
+/// One key of a config. A list of words is separated by blanks or commas.
 struct Option {
   const char* section; ///< section of the key; "shape.NAME", "region.NAME", "curve.NAME", "field.NAME" or "size.NAME"
                        ///< for keys of those
@@ -57,6 +57,8 @@ std::vector<std::string> key_names(std::string_view section);
 
 /// Splits a list into its words, which are separated by blanks.
 std::vector<std::string> split_words(std::string_view text);
+/// Splits a list into its words, which are separated by blanks or commas.
+std::vector<std::string> split_list(std::string_view text);
 
 /// Returns a description of the allowed values of a key, such as "a number > 0" or "auto or an integer from 1 to 10".
 std::string expectation(const Option& option);

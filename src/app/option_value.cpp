@@ -47,8 +47,10 @@ bool is_well_formed(const Option& option, const std::string& value) {
   case OptionKind::word:
     return is_one_of(value, option.choices);
   case OptionKind::words: {
-    const std::vector<std::string> words = split_words(value);
-    return std::all_of(words.begin(), words.end(),
+    const std::vector<std::string> words = split_list(value);
+    const bool has_none = std::ranges::find(words, "none") != words.end();
+    return !words.empty() && !(has_none && words.size() > 1) &&
+           std::all_of(words.begin(), words.end(),
                        [&](const std::string& word) { return is_one_of(word, option.choices); });
   }
   case OptionKind::pair:
@@ -62,7 +64,7 @@ bool is_well_formed(const Option& option, const std::string& value) {
 
 /// The nearest allowed word to each word that is not allowed.
 std::string word_suggestion(const Option& option, const std::string& value) {
-  for (const std::string& word : split_words(value))
+  for (const std::string& word : option.kind == OptionKind::words ? split_list(value) : split_words(value))
     if (!is_one_of(word, option.choices) && !parse_number(word))
       return suggestion(word, split_words(option.choices));
   return "";
@@ -115,8 +117,11 @@ std::string expectation(const Option& option) {
     return "true or false";
   case OptionKind::word:
     return fmt::format("one of {}", fmt::join(choices, ", "));
-  case OptionKind::words:
-    return fmt::format("a list of {}, separated by blanks", fmt::join(choices, ", "));
+  case OptionKind::words: {
+    const bool has_none = !choices.empty() && choices[0] == "none";
+    return fmt::format("{}a list of {}, separated by blanks or commas", has_none ? "none, or " : "",
+                       fmt::join(choices.begin() + (has_none ? 1 : 0), choices.end(), ", "));
+  }
   case OptionKind::pair:
     return "two numbers X Y separated by a blank";
   case OptionKind::text:

@@ -121,17 +121,13 @@ void print_warnings(const boundary::FeatureReport& features, const std::vector<s
       log.warning("{}", warning.formatted());
 }
 
-/// Prints what --dry-run finds out about the boundary.
-void print_outlook(const meshing::Outlook& outlook, const std::vector<std::string>& part_names, Log& log) {
-  for (const PlacedText& line : boundary::describe(outlook.features))
-    log.summary("boundary: {}", line.formatted());
-  print_warnings(outlook.features, part_names, log);
-  if (outlook.keeps_all) {
-    log.summary("no part of the shape is simplified at this size");
-    return;
-  }
+/// Prints the resolution that keeps everything, as the user would ask for it.
+void print_advice(const meshing::Outlook& outlook, Log& log) {
   if (outlook.keeping_factor > 0)
     log.summary("sizes that are {:.3g} times smaller keep everything", 1 / outlook.keeping_factor);
+  else if (outlook.tried_factor > 0)
+    log.summary("sizes that are {:.3g} times smaller do not keep everything yet; smaller ones were not tried",
+                1 / outlook.tried_factor);
   else if (outlook.keeping_points == 0)
     log.summary("no size was found that keeps everything");
   else if (outlook.is_tried)
@@ -141,6 +137,17 @@ void print_outlook(const meshing::Outlook& outlook, const std::vector<std::strin
                 outlook.keeping_points);
   if (outlook.keeping_edge_length > 0)
     log.summary("edge_length = {:g} keeps everything; that was tried", outlook.keeping_edge_length);
+}
+
+/// Prints what --dry-run finds out about the boundary.
+void print_outlook(const meshing::Outlook& outlook, const std::vector<std::string>& part_names, Log& log) {
+  for (const PlacedText& line : boundary::describe(outlook.features))
+    log.summary("boundary: {}", line.formatted());
+  print_warnings(outlook.features, part_names, log);
+  if (outlook.keeps_all)
+    log.summary("no part of the shape is simplified at this size");
+  else
+    print_advice(outlook, log);
 }
 
 /// Throws as the run would.
@@ -156,6 +163,29 @@ void check_fixed_points(const shape::RegionShape& shape, Log& log) {
                                       "boundary",
                                       point.label, Place(p), shape.distance_to_boundary(p)));
   }
+}
+
+/// Some places of the shape at which formulas are tried before a mesh is made: vertices of the boundary, and places of
+/// a grid inside.
+std::vector<geometry::Vec2> sample_places(const shape::RegionShape& shape) {
+  constexpr std::int64_t most_vertices = 64;
+  constexpr int across = 32; // places of the grid along each side
+  std::vector<geometry::Vec2> places;
+  const std::int64_t step = 1 + polygon::piece_count(shape.boundary()) / most_vertices;
+  std::int64_t number = 0;
+  for (const geometry::Loop& loop : shape.boundary().loops)
+    for (const geometry::Piece& piece : loop.pieces)
+      if (number++ % step == 0)
+        places.push_back(piece.start);
+  const geometry::Box box =
+      shape.boundary().loops.empty() ? shape.frame().container() : shape.boundary().bounding_box();
+  for (int k = 0; k < across * across; ++k) {
+    const geometry::Vec2 p{box.min.x + (k % across + 0.5) / across * box.width(),
+                           box.min.y + (k / across + 0.5) / across * box.height()};
+    if (shape.inside(p))
+      places.push_back(p);
+  }
+  return places;
 }
 
 /// Holds what a command line and its config ask for.
@@ -255,8 +285,11 @@ std::vector<BuiltField> read_data(const Job& job, const ShapeInput& input) {
     return {};
   const auto timing = job.timers.scope("size field");
   std::vector<BuiltField> fields = read_fields(job.options, input, job.comm);
-  for (const BuiltField& field : fields)
+  for (const BuiltField& field : fields) {
     job.log.info("field {}: {}", field.name, description_of(field));
+    if (!field.warning.empty())
+      job.log.warning("{}", field.warning);
+  }
   if (job.options.scale_is_automatic && job.options.sizing.uses_data)
     job.log.summary("scale = absolute, since the formula of the size uses data: its values are lengths");
   return fields;
@@ -322,6 +355,8 @@ private:
   BuiltSize size_;
   std::optional<DistanceFormula> depth_;          // of the points, if the config asks for depths
   double points_ = 0;                             // about as many as the mesh will have
+  SizeShares shares_;                             // of several sizes, in the final mesh
+  std::optional<DepthSummary> depths_;            // of the final mesh, if the config asks for depths
   std::optional<record::CourantSummary> courant_; // of the final mesh, if the config has a time step
   std::vector<acceptance::Verdict> verdicts_;     // on the final mesh, by the rules of models
 };
@@ -337,6 +372,8 @@ void MeshRun::check_output() {
 ExitCode MeshRun::preview() {
   const bool is_dry_run = job_.line.action == Action::dry_run;
   check_fixed_points(*input_.shape, job_.log);
+  if (depth_)
+    try_depth(*depth_, sample_places(*input_.shape), job_.log);
   job_.log.summary("{}", estimate(job_.options, points_, boundary(), placement_, is_dry_run));
   check_share(points_, placement_.ranks);
   Log quiet(LogLevel::error, job_.comm.is_root()); // its warnings were printed before
@@ -375,7 +412,7 @@ void MeshRun::add_depths(meshing::MeshResult& result) {
   if (!depth_)
     return;
   const auto timing = job_.timers.scope("depth");
-  add_depth(*depth_, result, job_.comm, job_.log);
+  depths_ = add_depth(*depth_, result, job_.comm, job_.log);
   if (job_.options.courant.time_step > 0 && result.checks.back().passed)
     courant_ = record::courant_numbers(job_.options.courant, result.mesh, job_.comm);
 }
@@ -393,7 +430,8 @@ void MeshRun::judge(meshing::MeshResult& result) {
 /// Summarises the size of the mesh, and how often each of several sizes is the smallest one. Collective.
 SizeSummary MeshRun::summarize(const meshing::MeshResult& result) {
   const auto timing = job_.timers.scope("size field");
-  const std::string shares = shares_of_sizes(size_, result.mesh, job_.comm);
+  shares_ = shares_of_sizes(size_, result.mesh, job_.comm);
+  const std::string shares = text_of(shares_);
   return summarize_size(shares.empty() ? size_.description : fmt::format("{}: {}", size_.description, shares),
                         result.mesh, job_.comm);
 }
@@ -401,6 +439,10 @@ SizeSummary MeshRun::summarize(const meshing::MeshResult& result) {
 io::Metadata MeshRun::describe(const Provenance& provenance, const meshing::MeshResult& result,
                                const SizeSummary& sizes, const Measurements& measured) const {
   io::Metadata metadata = describe_run(provenance, result, sizes, measured);
+  if (!shares_.names.empty())
+    metadata.groups.push_back(group_of(shares_));
+  if (depths_)
+    metadata.groups.push_back(group_of(*depths_));
   if (courant_)
     metadata.groups.push_back(record::group_of(*courant_));
   if (!verdicts_.empty())
@@ -427,7 +469,7 @@ void MeshRun::print_results(const RunFacts& facts) const {
                        formats::open_boundary_text(series_options(job_, input_).names, facts.part_edges));
   if (courant_)
     job_.log.summary("{}", record::text_of(*courant_));
-  print_verdicts(verdicts_, job_.log);
+  print_verdicts(verdicts_, job_.options.mesh.split_ears, job_.log);
   print_cells(series_.cells(), job_.log);
   if (!is_complete(facts.result))
     job_.log.warning("{}", incompleteness(facts.result, job_.options.write));
@@ -462,13 +504,13 @@ ExitCode MeshRun::run() {
   const io::WrittenFiles files = job_.options.write ? publish(provenance, result, sizes) : io::WrittenFiles{};
   const Measurements measured = gather_measurements(job_.timers, job_.comm);
   const ExitCode code = mesh::all_passed(series_.cells().checks) ? exit_code(result) : ExitCode::incomplete;
-  if (!job_.line.report.empty())
-    io::write_report_file(job_.line.report, describe(provenance, result, sizes, measured),
-                          {static_cast<int>(code), files.paths}, job_.comm);
-  keeper_.remove_all();
   const std::vector<std::int64_t> edges =
       edges_of_parts(result.mesh, boundary().part_names.size(), input_.domain().curves().names.size(), job_.comm);
   print_results({provenance, result, sizes, measured, files, edges});
+  if (!job_.line.report.empty()) // last, since it holds all warnings
+    io::write_report_file(job_.line.report, describe(provenance, result, sizes, measured),
+                          {static_cast<int>(code), files.paths, job_.log.warnings()}, job_.comm);
+  keeper_.remove_all();
   return code;
 }
 

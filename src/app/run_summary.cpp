@@ -91,9 +91,13 @@ std::string boundary_text(const boundary::FeatureReport& report) {
                                      {std::ssize(report.sharp_corners), "sharp corner", "sharp corners"}})
     if (count > 0)
       text += (text.empty() ? "" : ", ") + counted(count, one, many);
-  if (report.lost_share > 0 || report.added_share > 0)
-    text += fmt::format("{}area -{:.3g} % +{:.3g} %", text.empty() ? "" : "; ", 100 * report.lost_share,
-                        100 * report.added_share);
+  std::string area;
+  if (report.lost_share > 0)
+    area += fmt::format(" -{:.3g} %", 100 * report.lost_share);
+  if (report.added_share > 0)
+    area += fmt::format(" +{:.3g} %", 100 * report.added_share);
+  if (!area.empty())
+    text += fmt::format("{}area{}", text.empty() ? "" : "; ", area);
   return text;
 }
 

@@ -47,7 +47,7 @@ Settings::Settings(const IniDocument& document, Diagnostics& problems) {
     if (is_known_section(entry.section))
       check_entry(entry, problems);
     else if (++misspelt_ <= most_misspelt)
-      meant_.insert({nearest_name(entry.section, section_names()), entry.key});
+      meant_.insert({nearest_section(entry.section), entry.key});
   for (const std::string& part : parts())
     check_part("shape." + part, problems);
   for (const std::string& curve : curves())
@@ -78,13 +78,46 @@ void Settings::check_sections(const IniDocument& document, Diagnostics& problems
     section_lines_.emplace(section.name, section.line);
     if (named(section.name) == nullptr) {
       if (!is_known_section(section.name))
-        problems.add(section.line,
-                     fmt::format("unknown section [{}]{}", shown(section.name),
-                                 ++misspelt_ <= most_misspelt ? suggestion(section.name, section_names()) : ""));
+        add_unknown_section(section, problems);
       continue;
     }
     check_name(section, problems);
   }
+}
+
+/// The known section that is most similar to a misspelt one, such as "field.depth" for "fields.depth"; empty if there
+/// is none.
+std::string Settings::nearest_section(const std::string& section) const {
+  const std::size_t dot = section.find('.');
+  if (dot == std::string::npos)
+    return nearest_name(section, section_names());
+  std::vector<std::string> kinds;
+  for (const NamedSections& kind : named_)
+    kinds.emplace_back(kind.prefix.substr(0, kind.prefix.size() - 1));
+  const std::string near = nearest_name(section.substr(0, dot), kinds);
+  return near.empty() ? "" : near + section.substr(dot);
+}
+
+void Settings::add_unknown_section(const IniSection& section, Diagnostics& problems) {
+  has_unknown_section_ = true;
+  std::string near;
+  if (++misspelt_ <= most_misspelt)
+    near = nearest_section(section.name);
+  problems.add(section.line, fmt::format("unknown section [{}]{}", shown(section.name),
+                                         near.empty() ? "" : fmt::format("; did you mean '{}'?", shown(near))));
+  const std::string_view prefix = named_[fields_at].prefix;
+  if (const std::string name = near.starts_with(prefix) ? near.substr(prefix.size()) : "";
+      is_part_name(name) && !is_word_of_formulas(name) && std::ranges::find(meant_fields_, name) == meant_fields_.end())
+    meant_fields_.push_back(name);
+}
+
+/// The known key that is most similar to a misspelt one; if possible, one that the section does not set.
+std::string Settings::nearest_key(const IniEntry& entry) const {
+  std::vector<std::string> others = key_names(entry.section);
+  const std::vector<std::string> all = others;
+  std::erase_if(others, [&](const std::string& key) { return lines_.contains({entry.section, key}); });
+  const std::string near = nearest_name(entry.key, others);
+  return near.empty() ? nearest_name(entry.key, all) : near;
 }
 
 /// The name of a part, a region, a curve or a field.
@@ -123,11 +156,12 @@ void Settings::check_entry(const IniEntry& entry, Diagnostics& problems) {
   if (!option) {
     std::string near;
     if (++misspelt_ <= most_misspelt) {
-      near = suggestion(entry.key, key_names(entry.section));
-      meant_.insert({entry.section, nearest_name(entry.key, key_names(entry.section))});
+      near = nearest_key(entry);
+      meant_.insert({entry.section, near});
     }
     problems.add(entry.line, fmt::format("unknown key '{}' in [{}]{}", shown(entry.key), shown(entry.section),
-                                         near.empty() ? other_home(entry.section, entry.key) : near));
+                                         near.empty() ? other_home(entry.section, entry.key)
+                                                      : fmt::format("; did you mean '{}'?", near)));
     return;
   }
   IniEntry meant = entry;

@@ -35,6 +35,11 @@ public:
   const std::vector<std::string>& fields() const { return named_[fields_at].names; }
   /// Returns the names of the sections [size.NAME] in the order of the file.
   const std::vector<std::string>& sizes() const { return named_[sizes_at].names; }
+  /// Returns the names of sections such as [fields.NAME], which are unknown, but were probably meant to be fields.
+  const std::vector<std::string>& meant_fields() const { return meant_fields_; }
+  /// Returns true if a section is unknown. Then a key that seems to be missing may be in it, so callers do not report
+  /// that it is missing.
+  bool has_unknown_section() const { return has_unknown_section_; }
   /// Returns the line of the section in the file.
   int section_line(const std::string& section) const;
 
@@ -80,6 +85,9 @@ private:
   void check_given(const std::string& section, const std::string& key, Diagnostics& problems);
   void check_name(const IniSection& section, Diagnostics& problems);
   bool is_known_section(const std::string& section) const;
+  std::string nearest_section(const std::string& section) const;
+  std::string nearest_key(const IniEntry& entry) const;
+  void add_unknown_section(const IniSection& section, Diagnostics& problems);
   void keep(const IniEntry& entry);
 
   std::map<std::string, int> section_lines_; ///< line in which each section begins first
@@ -92,7 +100,9 @@ private:
   std::map<IniKey, std::string> good_;               ///< all allowed values that the user has set
   std::map<std::string, std::vector<IniEntry>> own_; ///< all allowed values by section, in the order of the file
   std::set<IniKey> meant_;                           ///< known keys that are most similar to misspelt sections and keys
-  int misspelt_ = 0;                                 ///< number of unknown names
+  std::vector<std::string> meant_fields_;            ///< see meant_fields()
+  bool has_unknown_section_ = false;
+  int misspelt_ = 0; ///< number of unknown names
 };
 
 } // namespace trime::app

@@ -14,6 +14,8 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <numeric>
+#include <utility>
 
 namespace trime::app {
 namespace {
@@ -185,7 +187,7 @@ void lower_in_regions(const RunOptions& options, const geometry::Domain& domain,
 
 } // namespace
 
-std::string shares_of_sizes(const BuiltSize& size, const mesh::DistributedMesh& mesh, const comm::Communicator& comm) {
+SizeShares shares_of_sizes(const BuiltSize& size, const mesh::DistributedMesh& mesh, const comm::Communicator& comm) {
   if (size.minimum == nullptr)
     return {};
   std::vector<std::int64_t> points(size.names.size(), 0);
@@ -198,12 +200,23 @@ std::string shares_of_sizes(const BuiltSize& size, const mesh::DistributedMesh& 
       std::ranges::transform(points, its, points.begin(), std::plus<>());
   });
   comm.sum(points);
+  return {size.names, std::move(points)};
+}
+
+std::string text_of(const SizeShares& shares) {
+  if (shares.names.empty())
+    return {};
+  const std::int64_t all = std::accumulate(shares.points.begin(), shares.points.end(), std::int64_t{0});
   std::string text;
-  for (std::size_t k = 0; k < points.size(); ++k)
-    text += fmt::format("{}[{}] {:.3g} %", text.empty() ? "" : ", ", size.names[k],
-                        100 * static_cast<double>(points[k]) /
-                            static_cast<double>(std::max<GlobalId>(1, mesh.point_slab.total)));
+  for (std::size_t k = 0; k < shares.names.size(); ++k)
+    text +=
+        fmt::format("{}[{}] {:.3g} %", k == 0 ? "" : ", ", shares.names[k],
+                    100 * static_cast<double>(shares.points[k]) / static_cast<double>(std::max<std::int64_t>(1, all)));
   return text + " of the points";
+}
+
+io::MetadataGroup group_of(const SizeShares& shares) {
+  return {"sizes", {}, {{"name", shares.names}, {"points", shares.points}}};
 }
 
 DistanceFormula build_formula(const FormulaText& formula, const geometry::Domain& domain,

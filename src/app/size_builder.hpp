@@ -9,8 +9,10 @@
 #include "sizing/region_size.hpp"
 #include "trime/comm/communicator.hpp"
 #include "trime/geometry/boundary.hpp"
+#include "trime/io/metadata.hpp"
 #include "trime/sizing/size_field.hpp"
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,10 +31,21 @@ struct BuiltSize {
   std::string description; ///< text for the report, such as "automatic, gradation 0.1, features of 0.004 and more"
 };
 
-/// @brief Returns how many percent of the points have each of several sizes as the smallest one, such as "[sizing] 60
-/// %, [size.wave] 40 % of the points"; empty if there is one size. Collective. Cost: one evaluation per point and size,
-/// by all threads.
-std::string shares_of_sizes(const BuiltSize& size, const mesh::DistributedMesh& mesh, const comm::Communicator& comm);
+/// How many points have each of several sizes as the smallest one.
+struct SizeShares {
+  std::vector<std::string> names; ///< BuiltSize::names; empty if there is one size
+  std::vector<std::int64_t> points;
+};
+
+/// @brief Counts the points at which each of several sizes is the smallest one, before bounds and `size_at` lower it.
+/// Collective. Cost: one evaluation per point and size, by all threads.
+SizeShares shares_of_sizes(const BuiltSize& size, const mesh::DistributedMesh& mesh, const comm::Communicator& comm);
+
+/// Returns a text such as "[sizing] 60 %, [size.wave] 40 % of the points"; empty if there is one size.
+std::string text_of(const SizeShares& shares);
+
+/// Returns the shares as a group of the mesh file.
+io::MetadataGroup group_of(const SizeShares& shares);
 
 /// Makes a formula that may use data, and distances to the boundary and its parts.
 /// @throws ConfigError that says what is wrong with a name; the same on all ranks

@@ -158,8 +158,9 @@ PlacedText body_warning(const FeatureReport& report, const std::vector<std::stri
                         report.hole_share > 0 ? "larger" : "smaller");
   if (text.empty())
     return PlacedText("");
-  text += ". Smaller triangles there follow the shape better: more points, or a size that is smaller there "
-          "(sizing.type = automatic or expression)";
+  text += report.absolute_sizes ? ". Smaller sizes there follow the shape better"
+                                : ". Smaller triangles there follow the shape better: more points, or a size that is "
+                                  "smaller there (sizing.type = automatic or expression)";
   if (occasion == Occasion::run)
     text += ". The table /trime_mpi/rings in the mesh file has area and mesh_area of each loop";
   return PlacedText(text);

@@ -253,7 +253,9 @@ PlacedText loss_warning(const FeatureReport& report, Occasion occasion) {
                     "points than were asked for",
                     report.coarseness);
   if (loses_unasked(report)) {
-    text += ". More points (a smaller edge_length) keep more, and --dry-run tries how many keep everything. ";
+    text += report.absolute_sizes
+                ? ". Smaller sizes in [sizing] keep more, and --dry-run tries how much smaller ones keep everything. "
+                : ". More points (a smaller edge_length) keep more, and --dry-run tries how many keep everything. ";
     if (report.components > report.given_components && report.severed == 0)
       text += "A smaller meshing.simplify_within keeps narrow connections. ";
     text += "meshing.keep_features = true keeps everything, however many points that takes";

@@ -48,6 +48,8 @@ public:
   bool uses_distances() const;
   /// Returns the names of the fields that the text uses, sorted.
   std::vector<std::string> fields() const;
+  /// Returns the names in `grad(NAME)`, sorted.
+  std::vector<std::string> slopes() const;
 
 private:
   struct Store;

@@ -213,6 +213,18 @@ std::string complaint_about(const mu::Parser& parser, const std::string& token) 
                                   : near);
 }
 
+/// Says that `grad` has a name that no data field has.
+std::string complaint_about_slope(const std::string& name, const std::vector<FormulaField>& fields) {
+  std::vector<std::string> names;
+  std::string list;
+  for (const FormulaField& field : fields) {
+    names.push_back(field.name);
+    list += (list.empty() ? "" : ", ") + shown(field.name);
+  }
+  return fmt::format("grad({}): expected the name of a section [field.NAME]; {}{}", shown(name),
+                     names.empty() ? "there is none" : "there are " + shown(list), suggestion(name, names));
+}
+
 /// Says what is wrong, without position and text.
 std::string complaint(const mu::Parser& parser, const mu::ParserError& error) {
   const std::string token = with_usual_power(error.GetToken());
@@ -417,8 +429,7 @@ void DistanceFormula::Store::add_gradients() {
     const auto field =
         std::find_if(fields.begin(), fields.end(), [&](const FormulaField& one) { return one.name == use.name; });
     if (field == fields.end())
-      reject(where, text, use.begin + 1,
-             fmt::format("grad('{}'): expected the name of a section [field.NAME]", use.name));
+      reject(where, text, use.begin + 1, complaint_about_slope(use.name, fields));
     use.is_gradient = true;
     uses.push_back(use);
     distances.push_back(field->slope);
@@ -473,9 +484,15 @@ bool DistanceFormula::uses_distances() const {
 }
 
 std::vector<std::string> DistanceFormula::fields() const {
-  std::set<std::string> names;
+  const std::vector<std::string> of_slopes = slopes();
+  std::set<std::string> names(of_slopes.begin(), of_slopes.end());
   for (const std::size_t k : store_->used_fields)
     names.insert(store_->fields[k].name);
+  return {names.begin(), names.end()};
+}
+
+std::vector<std::string> DistanceFormula::slopes() const {
+  std::set<std::string> names;
   for (const DistanceUse& use : store_->uses)
     if (use.is_gradient)
       names.insert(use.name);

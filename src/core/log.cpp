@@ -77,11 +77,17 @@ Log::Log(LogLevel level, bool active, std::FILE* stream)
     : level_(level), active_(active), terminal_(active ? terminal_of(stream) : std::string()), stream_(stream) {}
 
 void Log::write(LogLevel level, const std::string& message) {
-  if (!active_ || level < level_)
+  const bool is_shown = level >= level_, is_warning = level == LogLevel::warning;
+  if (!active_ || !(is_shown || is_warning))
+    return;
+  const PlacedText read(message);
+  const std::string text = rewrite_ ? rewrite_(read) : read.text();
+  if (is_warning)
+    warnings_.push_back(text);
+  if (!is_shown)
     return;
   erase_live_line();
-  const PlacedText read(message);
-  fmt::print(stream_, "{}{}\n", level == LogLevel::warning ? "warning: " : "", rewrite_ ? rewrite_(read) : read.text());
+  fmt::print(stream_, "{}{}\n", is_warning ? "warning: " : "", text);
   std::fflush(stream_);
 }
 

@@ -79,7 +79,8 @@ SmoothReach reach_of(const FieldRequest& request, const Axis& x, const Axis& y) 
           angle / y.step};
 }
 
-/// The box with room for the values around that are averaged.
+/// The box with room for the values around that are averaged. With a period it may be wider than one, at most twice as
+/// wide: values on both sides of the opposite meridian are averages of all values around them.
 geometry::Box with_reach(geometry::Box box, const FieldRequest& request) {
   const double up = request.per_degree > 0 ? request.smooth / request.per_degree : request.smooth;
   box.min.y -= up;
@@ -87,7 +88,7 @@ geometry::Box with_reach(geometry::Box box, const FieldRequest& request) {
   const double latitude = std::fmax(std::fabs(box.min.y), std::fabs(box.max.y));
   double along = request.per_degree > 0 ? up / parallel_share(latitude) : up;
   if (request.period > 0)
-    along = std::fmin(along, std::fmax(0, (request.period - box.width()) / 2));
+    along = std::fmin(along, request.period / 2);
   box.min.x -= along;
   box.max.x += along;
   return box;
@@ -143,30 +144,47 @@ void read_around(RasterFile& file, const Window& window, std::int64_t around, st
   }
 }
 
+/// The sides of a cell in the unit of `smooth`, along rows in the mean, since few rows are near a pole.
+geometry::Vec2 cell_of(const FieldRequest& request, const Axis& x, const Axis& y) {
+  if (request.smooth <= 0)
+    return {};
+  const SmoothReach reach = reach_of(request, x, y);
+  double in_row = 0;
+  for (std::int64_t row = 0; row < y.count; ++row)
+    in_row += reach.in_row(row) / static_cast<double>(y.count);
+  return {request.smooth / in_row, request.smooth / reach.in_column};
+}
+
+/// Advice such as "make a coarser raster: gdal_translate -outsize 25% 25%". @param share of the rows and columns
+std::string coarser_raster(double share) {
+  const double percent = std::floor(100 * share);
+  return percent >= 1 ? fmt::format("make a coarser raster: gdal_translate -outsize {0:g}% {0:g}%", percent)
+                      : "make a much coarser raster with gdal_translate -outsize";
+}
+
 /// @throws GeometryError if the values would be averaged over too many cells
 void check_smooth(const Cut& cut, const FieldRequest& request) {
   const auto row_at = [&](std::int64_t row) { return cut.y.at(static_cast<double>(row)); };
   const Axis rows{row_at(cut.window.first_row), cut.y.step, cut.window.rows};
-  const SmoothReach reach = reach_of(request, cut.x, rows);
-  double in_row = 0; // in the mean, since few rows are near a pole
-  for (std::int64_t row = 0; row < rows.count; ++row)
-    in_row += reach.in_row(row) / static_cast<double>(rows.count);
-  const double widest = std::fmax(reach.in_column, in_row);
+  if (request.smooth <= 0)
+    return;
+  const geometry::Vec2 cell = cell_of(request, cut.x, rows);
+  const double widest = request.smooth / std::fmin(cell.x, cell.y);
   if (widest > most_smooth_cells)
     throw GeometryError(fmt::format("{}: expected a length 'smooth' of at most {:g} cells of the raster, found {:g}, "
-                                    "which are {:.4g} cells; it has the unit of the mesh. Take a smaller length, or a "
-                                    "coarser raster: gdal_translate -outsize 25% 25%",
-                                    request.path, most_smooth_cells, request.smooth, widest));
+                                    "which are {:.4g} cells; it has the unit of the mesh. Take a smaller length, or {}",
+                                    request.path, most_smooth_cells, request.smooth, widest,
+                                    coarser_raster(most_smooth_cells / widest)));
 }
 
 Raster read_cut(RasterFile& file, const Cut& cut, const FieldRequest& request) {
   const auto values = static_cast<double>(cut.window.columns) * static_cast<double>(cut.window.rows);
   if (values > most_values)
-    throw GeometryError(
-        fmt::format("{}: expected at most {:.0e} values around the shape, since each rank holds all of "
-                    "them, found {} x {}; make a coarser raster: gdal_translate -outsize 25% 25%{}",
-                    request.path, most_values, cut.window.columns, cut.window.rows,
-                    request.smooth > 0 ? ", or take a smaller 'smooth', which adds values around" : ""));
+    throw GeometryError(fmt::format(
+        "{}: expected at most {:.0e} values around the shape, since each rank holds all of "
+        "them, found {} x {}; {}{}",
+        request.path, most_values, cut.window.columns, cut.window.rows, coarser_raster(std::sqrt(most_values / values)),
+        request.smooth > 0 ? ", or take a smaller 'smooth', which adds values around" : ""));
   Raster raster{{cut.x.at(static_cast<double>(cut.window.first_column)), cut.x.step, cut.window.columns},
                 {cut.y.at(static_cast<double>(cut.window.first_row)), cut.y.step, cut.window.rows}};
   const bool fits =
@@ -315,7 +333,8 @@ ReadField read_field(const FieldRequest& request, const geometry::Boundary& boun
   std::optional<Raster> smooth;
   if (request.smooth > 0)
     comm::run_agreed(comm, [&] { smooth = smoothed(raster, reach_of(request, raster.x, raster.y)); });
-  return {std::make_unique<const Field>(std::move(raster), request.period, head.middle, std::move(smooth)), head.hash};
+  return {std::make_unique<const Field>(std::move(raster), request.period, head.middle, std::move(smooth)), head.hash,
+          cell_of(request, head.x, head.y)};
 }
 
 } // namespace trime::fields

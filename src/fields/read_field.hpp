@@ -35,6 +35,7 @@ using ToFile = std::function<geometry::Vec2(geometry::Vec2)>;
 struct ReadField {
   std::unique_ptr<const Field> field;
   std::uint64_t hash = 0;
+  geometry::Vec2 cell; ///< sides of a cell in the unit of `smooth`, along rows in the mean; (0, 0) without `smooth`
 };
 
 /// Largest number of values that a field may have, because each rank holds all of them.

@@ -41,9 +41,10 @@ std::string report_json(const Metadata& metadata, const Outcome& outcome) {
   Json groups = Json::object();
   for (const MetadataGroup& group : metadata.groups)
     groups[group.name] = json_of(group);
-  const Json report{
-      {"format", "trime_mpi-report"}, {"format_version", report_version},           {"exit_code", outcome.exit_code},
-      {"files", outcome.files},       {"attributes", json_of(metadata.attributes)}, {"groups", std::move(groups)}};
+  const Json report{{"format", "trime_mpi-report"},   {"format_version", report_version},
+                    {"exit_code", outcome.exit_code}, {"files", outcome.files},
+                    {"warnings", outcome.warnings},   {"attributes", json_of(metadata.attributes)},
+                    {"groups", std::move(groups)}};
   return report.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -18,13 +18,14 @@ inline constexpr int report_version = 1;
 /// The end of a run: facts that are not part of its metadata.
 struct Outcome {
   int exit_code = 0;
-  std::vector<std::string> files; ///< paths of the written files
+  std::vector<std::string> files;    ///< paths of the written files
+  std::vector<std::string> warnings; ///< warnings of the run, as it printed them
 };
 
-/// @brief Returns {"format": "trime_mpi-report", "format_version": 1, "exit_code", "files": [...], "attributes": {name:
-/// value}, "groups": {group: {"attributes": {...}, "columns": {name: [values]}}}}. Attributes and groups have the same
-/// names as in the group /trime_mpi of a mesh file; texts are left out. Numbers that are not finite become null, and
-/// bytes that are not UTF-8 are replaced, because JSON cannot hold them.
+/// @brief Returns {"format": "trime_mpi-report", "format_version": 1, "exit_code", "files": [...], "warnings": [...],
+/// "attributes": {name: value}, "groups": {group: {"attributes": {...}, "columns": {name: [values]}}}}. Attributes and
+/// groups have the same names as in the group /trime_mpi of a mesh file; texts are left out. Numbers that are not
+/// finite become null, and bytes that are not UTF-8 are replaced, because JSON cannot hold them.
 std::string report_json(const Metadata& metadata, const Outcome& outcome);
 
 /// @brief Checks that the file can be written and would not replace a link, pipe or device. Called before long

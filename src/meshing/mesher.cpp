@@ -246,6 +246,7 @@ void Run::count_replicated() const {
 /// Collects the report on small features, and on what the user may want to change. Collective.
 void Run::report_boundary() {
   features_ = boundary::report_features(stage_.polygon, scheme_.limits(), stage_.asked_size());
+  features_.absolute_sizes = run_.options.absolute_sizes;
   comm::run_agreed(run_.comm, [this] { // this and the warnings ask the size field, which may be a user's
     boundary::report_losses(boundary_.fixed().cornered_boundary(), boundary_.curves(), stage_.simplified,
                             stage_.polygon.dropped, stage_.asked_size(), run_.lattice, features_);

@@ -51,6 +51,7 @@ boundary::FeatureReport features_of(const RunContext& run, MeshedBoundary& bound
   boundary::FeatureReport features;
   comm::run_agreed(run.comm, [&] {
     features = boundary::report_features(stage.polygon, limits, stage.asked_size());
+    features.absolute_sizes = run.options.absolute_sizes;
     boundary::report_losses(boundary.fixed().cornered_boundary(), boundary.curves(), stage.simplified,
                             stage.polygon.dropped, stage.asked_size(), run.lattice, features);
     boundary::measure_bodies(boundary.curves(), stage.polygon, stage.asked_size(), features);
@@ -83,9 +84,8 @@ double rounded_down(double length) {
 /// Sets numbers that were tried. Collective.
 void advise(const RunContext& run, const LayoutContext& layout, LaidOutlook& ahead, Outlook& outlook) {
   fitting::find_keeping_factor(layout, ahead);
-  if (run.fit.absolute) {
-    if (ahead.keeps)
-      outlook.keeping_factor = ahead.keeping_factor;
+  if (run.options.absolute_sizes) {
+    (ahead.keeps ? outlook.keeping_factor : outlook.tried_factor) = ahead.keeping_factor / ahead.factor;
     return;
   }
   const bool uniform = run.relative_size.is_uniform();

@@ -35,10 +35,11 @@ private:
   io::PointLookup foreign_;
 };
 
-double courant_number(double time_step, const std::array<MeshPoint, 3>& at) {
-  const double depth = (at[0].depth + at[1].depth + at[2].depth) / 3;
-  if (!(depth > 0))
-    return 0;
+double mean_depth(const std::array<MeshPoint, 3>& at) {
+  return (at[0].depth + at[1].depth + at[2].depth) / 3;
+}
+
+double courant_number(double time_step, double depth, const std::array<MeshPoint, 3>& at) {
   const double edge = std::min({length(at[1].position - at[0].position), length(at[2].position - at[1].position),
                                 length(at[0].position - at[2].position)});
   return time_step * std::sqrt(gravity * depth) / edge;
@@ -57,7 +58,12 @@ CourantSummary courant_numbers(const CourantOptions& options, const mesh::Distri
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
     const std::array<MeshPoint, 3> at{corners[a], corners[b], corners[c]};
-    const double number = courant_number(options.time_step, at);
+    const double depth = mean_depth(at);
+    if (!(depth > 0)) {
+      ++summary.dry;
+      continue;
+    }
+    const double number = courant_number(options.time_step, depth, at);
     summary.above += number > options.limit;
     if (number <= summary.largest)
       continue;
@@ -65,7 +71,10 @@ CourantSummary courant_numbers(const CourantOptions& options, const mesh::Distri
     worst = mesh.triangle_slab.first + static_cast<GlobalId>(t);
     centre = (1 / 3.0) * (at[0].position + at[1].position + at[2].position);
   }
-  summary.above = comm.sum(summary.above);
+  std::array counts{summary.above, summary.dry};
+  comm.sum(counts);
+  summary.above = counts[0];
+  summary.dry = counts[1];
   const double here = summary.largest;
   summary.largest = comm.max(here);
   const GlobalId first = comm.min(here == summary.largest ? worst : std::numeric_limits<GlobalId>::max());
@@ -79,16 +88,26 @@ CourantSummary courant_numbers(const CourantOptions& options, const mesh::Distri
 }
 
 std::string text_of(const CourantSummary& s) {
-  const double share = static_cast<double>(s.above) / static_cast<double>(std::max<std::int64_t>(1, s.triangles));
-  return fmt::format("Courant numbers with a time step of {:g} s: {} of {} triangles ({:.3g} %) above {:g}{}",
-                     s.options.time_step, s.above, s.triangles, 100 * share, s.options.limit,
-                     s.largest > 0 ? fmt::format("; the largest is {:.3g} at {}", s.largest, Place(s.place, 6)) : "");
+  const std::int64_t wet = s.triangles - s.dry;
+  const std::string what = fmt::format("Courant numbers with a time step of {:g} s", s.options.time_step);
+  if (wet == 0)
+    return fmt::format("{}: none, since none of {} triangles has a positive depth in the mean of its corners", what,
+                       s.triangles);
+  std::string text = fmt::format("{}: {} of {} triangles ({:.3g} %) above {:g}; the largest is {:.3g} at {}", what,
+                                 s.above, wet, 100 * static_cast<double>(s.above) / static_cast<double>(wet),
+                                 s.options.limit, s.largest, Place(s.place, 6));
+  if (s.dry > 0)
+    text += fmt::format("; {} dry triangle{} without a positive depth in the mean of {} corners {} not counted", s.dry,
+                        s.dry == 1 ? "" : "s", s.dry == 1 ? "its" : "their", s.dry == 1 ? "is" : "are");
+  return text;
 }
 
 io::MetadataGroup group_of(const CourantSummary& s) {
   return {"courant",
           {{"time_step", s.options.time_step},
            {"limit", s.options.limit},
+           {"triangles", s.triangles},
+           {"dry", s.dry},
            {"above", s.above},
            {"largest", s.largest},
            {"largest_x", s.place.x},

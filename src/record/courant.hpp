@@ -22,13 +22,14 @@ struct CourantOptions {
 struct CourantSummary {
   CourantOptions options;
   std::int64_t triangles = 0, above = 0; ///< all, and those above the limit
-  double largest = 0;
-  geometry::Vec2 place; ///< centre of the triangle with the largest number
+  std::int64_t dry = 0; ///< those without a number, since the mean depth of their corners is not positive
+  double largest = 0;   ///< 0 if all triangles are dry
+  geometry::Vec2 place; ///< centre of the triangle with the largest number; (0, 0) if all are dry
 };
 
 /// @brief Returns the Courant numbers of gravity waves, time_step sqrt(g depth) / shortest edge, with the mean depth of
-/// the corners; the number is 0 on land, where the depth is not positive. Lengths are in metres. Does not depend on the
-/// number of ranks. Cost: O(triangles). Collective.
+/// the corners. Triangles where this depth is not positive are dry and have no number. Lengths are in metres. Does not
+/// depend on the number of ranks. Cost: O(triangles). Collective.
 /// @pre the mesh has depths
 CourantSummary courant_numbers(const CourantOptions& options, const mesh::DistributedMesh& mesh,
                                const comm::Communicator& comm);

@@ -20,13 +20,19 @@ double largest_value(const AnyFormula& formula, const geometry::Box& box) {
       const double x = box.min.x + box.width() * i / (points - 1);
       const double y = box.min.y + box.height() * j / (points - 1);
       const double value = formula.evaluate(x, y);
+      const Place place(geometry::Vec2{x, y}, 6);
+      if (std::isnan(value))
+        throw ConfigError(fmt::format(
+            "{}: expected a positive size everywhere in the bounding box of the shape, but '{}' is not a number at {}; "
+            "bound the argument of the root, logarithm, power or quotient, such as sqrt(max(depth, 1)). "
+            "max(FORMULA, SIZE) does not help there",
+            formula.where(), formula.text(), place));
       if (!std::isfinite(value) || value <= 0)
         throw ConfigError(
             fmt::format("{}: expected a positive size everywhere in the bounding box of the shape, found {:.6g} at "
                         "{} for '{}'; if the size is wrong outside the shape only, write "
                         "max(FORMULA, SMALLEST SIZE)",
-                        formula.where(), std::isnan(value) ? std::fabs(value) : value, Place(geometry::Vec2{x, y}, 6),
-                        formula.text()));
+                        formula.where(), value, place, formula.text()));
       largest = std::fmax(largest, value);
     }
   return largest;

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests the files for coastal models (gr3, slf with cli, fort14, 2dm) and for SU2, with depths from data."""
 import json
+import re
 import unittest
 
 import h5py
@@ -167,6 +168,60 @@ class CoastFormats(WorkspaceCase):
         done = run(self.directory / "bay.ini", "output.time_step=1", "output.depth=none")
         self.assertEqual(done.returncode, 2)
         self.assertIn("needs 'depth'", done.stderr)
+
+    def test_courant_numbers_do_not_count_dry_triangles(self):
+        done = self.mesh("output.formats=vtkhdf xdmf", "output.depth=x-0.5", "output.time_step=0.01", ranks=2)
+        with h5py.File(self.directory / "bay.h5") as file:
+            triangles, depth = file["Mesh/mesh/topology"][:], file["VTKHDF/PointData/depth"][:]
+            found = dict(file["trime_mpi/courant"].attrs)
+        dry = np.count_nonzero(~(depth[triangles].mean(axis=1) > 0))
+        self.assertEqual(found["dry"], dry)
+        self.assertTrue(0 < dry < len(triangles))
+        self.assertRegex(done.stdout, f" of {len(triangles) - dry} triangles .*; {dry} dry triangles .* not counted")
+
+    def test_depths_of_the_wrong_sign_are_reported(self):
+        """By the run, its report and `info`, and before a mesh is made."""
+        report = self.directory / "report.json"
+        done = self.mesh("output.formats=vtkhdf xdmf", "output.depth=elevation", "output.time_step=1",
+                         "output.accept=telemac, fvcom", "--report", report, ranks=2)
+        with h5py.File(self.directory / "bay.h5") as file:
+            points, triangles = len(file["Mesh/mesh/geometry"]), len(file["Mesh/mesh/topology"])
+        told = (rf"'elevation' is not positive at {points} of {points} points of the mesh.*depths are positive "
+                "downwards.*write 'depth = -elevation'")
+        self.assertRegex(done.stdout, "warning: .*" + told)
+        self.assertRegex(done.stdout, rf"Courant numbers .*: none, since none of {triangles} triangles has a positive")
+        said = json.loads(report.read_text())
+        self.assertTrue(any(re.search(told, warning) for warning in said["warnings"]), said["warnings"])
+        self.assertEqual(said["groups"]["depth"]["attributes"]["positive"], 0)
+        self.assertEqual(said["groups"]["courant"]["attributes"]["dry"], triangles)
+        done = run("info", self.directory / "bay.h5")
+        for words in (rf"depths +from -[\d.]+ to -[\d.]+, positive at 0 of {points} points",
+                      "open boundary bay.open sea", r"Courant +time step 1 s: 0 of", r"fvcom +least_angle +>= 30 ", "shortest edge +0"):
+            self.assertRegex(done.stdout, words)
+        done = run(self.directory / "bay.ini", "output.depth=elevation", "--validate")
+        self.assertRegex(done.stdout, r"'elevation' is not positive at (\d+) of \1 points where the shape was tried")
+        done = run(self.directory / "bay.ini", "output.depth=sqrt(x-0.5)", "--dry-run", ranks=2)
+        self.assertRegex(done.stdout, r"'sqrt\(x-0.5\)' is not a number at \d+ of \d+ points where the shape was tried")
+        done = run(self.directory / "bay.ini", "--validate")
+        self.assertNotIn("where the shape was tried", done.stdout)
+
+    def test_keys_without_effect_are_reported(self):
+        done = run(self.directory / "bay.ini", "output.courant=0.5", "field.elevation.smooth=1", "--validate")
+        self.assertIn("'courant' in [output] has no effect without 'time_step'", done.stdout)
+        self.assertIn("'smooth' in [field.elevation] has no effect: only the slope grad(elevation)", done.stdout)
+        done = run(self.directory / "bay.ini", "output.accept=none telemac", "--validate")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("expected none, or a list of adcirc", done.stderr)
+
+    def test_advice_for_sizes_that_are_lengths(self):
+        """The island has less than three edges around."""
+        lengths = ("meshing.points=", "sizing.scale=absolute", "sizing.max_size=0.3")
+        for ranks in (1, 2):
+            done = run(self.directory / "bay.ini", *lengths, "--dry-run", ranks=ranks)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertRegex(done.stdout, r"hole was filled.*Smaller sizes in \[sizing\] keep more")
+            self.assertRegex(done.stdout, r"sizes that are [\d.]+ times smaller keep everything")
+            self.assertNotIn("edge_length", done.stdout)
 
     def accepted(self, ranks, *overrides):
         """The table of rules as lists, and what the run said about them."""

@@ -134,7 +134,13 @@ class Fields(unittest.TestCase):
             sizes = self.mesh(work, "h.asc", formula)[2]
             self.assertLess(sizes.mean(), 0.02)
             self.refuse(work, "h.asc", "smooth", overrides=["field.h.smooth=-1"])
-            self.refuse(work, "h.asc", "'smooth' of at most 1000 cells", "1250 cells", overrides=["field.h.smooth=25"])
+            self.refuse(work, "h.asc", "'smooth' of at most 1000 cells", "1250 cells", "-outsize 80% 80%",
+                        overrides=[formula, "field.h.smooth=25"])
+            done = self.run_mesh(work, "h.asc", formula, "field.h.smooth=0.01", "--validate", ranks=2)
+            self.assertIn("'smooth = 0.01' in [field.h] has no effect", done.stdout)
+            self.assertIn("the cells of the raster, which are 0.02 x 0.02", done.stdout)
+            done = self.run_mesh(work, "h.asc", formula, "field.h.smooth=0.15", "--validate")
+            self.assertNotIn("no effect", done.stdout)
 
     def test_several_sizes(self):
         """At each place the smallest one of all sizes counts."""
@@ -181,6 +187,9 @@ class Fields(unittest.TestCase):
             self.refuse(work, "five.asc", "expected 6 x 6 values, found only 35")
             self.refuse(work, "h.asc", "unknown name", overrides=["sizing.expression=h+depth"])
             self.refuse(work, "h.asc", "expected a positive size", overrides=["sizing.expression=h-0.03"])
+            self.refuse(work, "h.asc", "is not a number at (0, 0)", "such as sqrt(max(depth, 1))",
+                        overrides=["sizing.expression=max(sqrt(h-0.03), 0.02)"])
+            self.refuse(work, "h.asc", "there are h; did you mean 'h'?", overrides=["sizing.expression=grad(hh)"])
             self.refuse(work, "none.asc", "none.asc", "[field.h]")
             (work / "old.nc").write_bytes(b"CDF\x01" + bytes(100))
             self.refuse(work, "old.nc", "nccopy -4")
@@ -219,6 +228,20 @@ class Fields(unittest.TestCase):
             self.assertGreater(sizes[points[:, 0] < 0.05].min(), 0.04)
             write_ascii(work / "half.asc", [row[:12]] * 25, (-0.125, -0.125), 0.05)
             self.refuse(work, "half.asc", "covers the shape", overrides=periodic)
+
+    def test_slopes_of_smooth_data_at_the_opposite_meridian(self):
+        """The slope of sin(x) is as large there as at x = 0."""
+        with Workspace() as work:
+            x, y = numpy.arange(-179, 180, 2.0), numpy.arange(-39, 40, 2.0)
+            write_netcdf(work / "h.nc", numpy.sin(numpy.radians(x))[None, :] + 0 * y[:, None], x, y)
+            belt = ("shape.square.x_min=-180", "shape.square.x_max=180", "shape.square.y_min=-10",
+                    "shape.square.y_max=10", "sizing.expression=1.5 + 60*grad(h)", "field.h.smooth=15",
+                    "field.h.coordinates=degrees")
+            points, _, sizes, _, _ = self.mesh(work, "h.nc", *belt)
+            middle = sizes[numpy.abs(points[:, 0]) < 4].mean()
+            self.assertGreater(middle, 2.4)
+            for end in (-180, 180):
+                numpy.testing.assert_allclose(sizes[numpy.abs(points[:, 0] - end) < 4], middle, rtol=0.02)
 
     def test_degrees(self):
         """A bay across the date line, with data from 0 to 360 and from -180 to 180."""

@@ -137,6 +137,7 @@ struct FeatureReport {
   geometry::Vec2 lost_place;     ///< first vertex of the longest lost loop
   double lost_perimeter = 0;     ///< length of the longest lost loop divided by the size there
   ChangedBodies changed;         ///< loops that stay, but not as they were
+  bool absolute_sizes = false; ///< true if the user gave sizes as lengths, and not a number of points or a mean length
   double hole_share = 0; ///< area that the mesh gains since edges are chords of holes, divided by that of the shape
 };
 

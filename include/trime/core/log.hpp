@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace trime {
 
@@ -60,6 +61,8 @@ public:
   /// terminal.
   void progress(const ProgressStep& step);
   void set_progress_interval(int interval) { interval_ = interval; }
+  /// Returns all warnings so far, also those that the level hides; none unless the log is active.
+  const std::vector<std::string>& warnings() const { return warnings_; }
   /// From now on the log passes each message, except progress, to `rewrite` and prints the result.
   void set_rewriter(std::function<std::string(const PlacedText&)> rewrite) { rewrite_ = std::move(rewrite); }
 
@@ -80,6 +83,7 @@ private:
   double end_ = -1;          ///< expected end of the run, as a time of wall_seconds(); negative: unknown
   double drawn_ = -1;        ///< time of wall_seconds() at which the progress line was last drawn
   std::FILE* stream_;
+  std::vector<std::string> warnings_;                     ///< as they are printed
   std::function<std::string(const PlacedText&)> rewrite_; ///< empty: messages are printed as they are
 };
 

@@ -28,6 +28,7 @@ struct Outlook {
   double keeping_points = 0;
   bool is_tried = false;     ///< whether the boundary was placed for keeping_points points, and nothing was simplified
   double keeping_factor = 0; ///< factor on absolute sizes with which nothing is simplified; 0: no advice
+  double tried_factor = 0;   ///< the smallest factor on absolute sizes that was tried, if none keeps everything; or 0
   double keeping_edge_length = 0; ///< a tried edge length that keeps everything, if the size is uniform; otherwise 0
 };
 

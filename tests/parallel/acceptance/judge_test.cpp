@@ -101,7 +101,7 @@ TEST(Judge, FindsNoFaultInAHexagon) {
   const std::vector<Verdict> verdicts = judge(test::slabs_of(wheel(6), comm, 1), all_solvers, {}, comm);
   EXPECT_EQ(verdicts.size(), solver_rules().size());
   for (const Verdict& verdict : verdicts)
-    EXPECT_TRUE(verdict.holds()) << text_of(verdict);
+    EXPECT_TRUE(verdict.holds()) << text_of(verdict, false);
 }
 
 TEST(Judge, JudgesOnlyForTheSolversThatAreNamed) {
@@ -153,7 +153,12 @@ TEST(Judge, SeesTrianglesWithTwoAndThreeBoundaryEdges) {
   EXPECT_EQ(ears.broken, 2);
   EXPECT_EQ(ears.worst, 2);
   EXPECT_NEAR(ears.place.x, 2 / 3.0, 1e-15); // of two equally bad triangles, the first one
-  EXPECT_EQ(judged(square, Solver::telemac, Measure::boundary_corners, false, 2).broken, 2);
+  const Verdict corners = judged(square, Solver::telemac, Measure::boundary_corners, false, 2);
+  EXPECT_EQ(corners.broken, 2);
+  EXPECT_EQ(corners.ears, 2);
+  EXPECT_NE(text_of(corners, false).find("split_ears"), std::string::npos);
+  EXPECT_EQ(text_of(corners, true).find("split_ears"), std::string::npos);
+  EXPECT_EQ(judged(alone, Solver::telemac, Measure::boundary_corners, false, 2).ears, 0);
   EXPECT_EQ(judged(square, Solver::schism, Measure::boundary_edges, false, 2).broken, 0);
 }
 

@@ -210,6 +210,26 @@ TEST(Config, TellsAllMistakesAtOnceInTheOrderOfTheFile) {
             "command line: unknown key 'levle' in [log]; did you mean 'level'?");
 }
 
+TEST(Config, SuggestsTheMeantSectionAndAKeyThatIsNotSet) {
+  const std::string said = errors_of("[shape]\ngeometry = domain\n[fields.depth]\nfile = d.asc\n[field.h]\n"
+                                     "file = h.asc\nfil = nearest\n[sizes.wave]\nexpression = h\n[sizing]\n"
+                                     "type = expression\nexpression = depth + grad(depth)\n");
+  EXPECT_EQ(said, "dir/c.ini:3: unknown section [fields.depth]; did you mean 'field.depth'?\n"
+                  "dir/c.ini:7: unknown key 'fil' in [field.h]; did you mean 'fill'?\n"
+                  "dir/c.ini:8: unknown section [sizes.wave]; did you mean 'size.wave'?");
+}
+
+TEST(Config, AcceptsListsWithBlanksOrCommas) {
+  const auto solvers = [](const std::string& list) {
+    return parse_config(good, "dir/c.ini", {"output.accept=" + list}).accept.size();
+  };
+  EXPECT_EQ(solvers("none"), 0U);
+  EXPECT_EQ(solvers("telemac, fvcom"), 2U);
+  EXPECT_EQ(solvers("telemac fvcom,mpas"), 3U);
+  expect_refused("output.accept=none telemac", "expected none, or a list of adcirc");
+  expect_refused("output.accept=,", "expected none, or a list of adcirc");
+}
+
 TEST(Config, RefusesValuesThatMakeNoSense) {
   expect_refused("meshing.points=-5", "expected an integer from 3 to 100000000000");
   expect_refused("meshing.points=2", "expected an integer from 3");
