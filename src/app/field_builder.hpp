@@ -23,7 +23,7 @@ struct BuiltField {
   fields::ToFile to_file;
   bool in_metres = false; ///< whether degrees of the file become metres in gradients
   std::uint64_t hash = 0; ///< see fields::ReadField
-  std::string warning{};  ///< for the user; empty: there is none
+  std::string warning{};  ///< text for the user; empty if all is well
 };
 
 /// @brief Reads all fields that the formula uses, and checks that they cover the shape. Collective.

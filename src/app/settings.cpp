@@ -85,8 +85,8 @@ void Settings::check_sections(const IniDocument& document, Diagnostics& problems
   }
 }
 
-/// The known section that is most similar to a misspelt one, such as "field.depth" for "fields.depth"; empty if there
-/// is none.
+/// The known section that is most similar to a misspelt one, such as "field.depth" for "fields.depth"; empty if no
+/// section is similar.
 std::string Settings::nearest_section(const std::string& section) const {
   const std::size_t dot = section.find('.');
   if (dot == std::string::npos)

@@ -162,6 +162,7 @@ void lower_at_boundary(const RunOptions& options, const geometry::Domain& domain
   }
   for (const sizing::NamedSize& named : sizing.size_at)
     size.description += fmt::format(", {:.6g} at {}", named.size, named.name);
+  size.lowered_by += size.lowered_by.empty() ? "size_at" : " and size_at";
   size.description += fmt::format(" with gradation {:.6g}", gradation);
 }
 
@@ -181,6 +182,7 @@ void lower_in_regions(const RunOptions& options, const geometry::Domain& domain,
   }
   if (bounds.empty())
     return;
+  size.lowered_by = "regions";
   size.bases.push_back(std::move(size.field));
   size.field = std::make_unique<const sizing::RegionSize>(*size.bases.back(), domain, std::move(bounds));
 }
@@ -190,17 +192,22 @@ void lower_in_regions(const RunOptions& options, const geometry::Domain& domain,
 SizeShares shares_of_sizes(const BuiltSize& size, const mesh::DistributedMesh& mesh, const comm::Communicator& comm) {
   if (size.minimum == nullptr)
     return {};
-  std::vector<std::int64_t> points(size.names.size(), 0);
+  std::vector<std::string> names = size.names;
+  if (!size.lowered_by.empty())
+    names.push_back(size.lowered_by);
+  std::vector<std::int64_t> points(names.size(), 0);
   comm::run_agreed(comm, [&] {
     PerThread<std::vector<std::int64_t>> counts(points);
     thread_loop(std::ssize(mesh.points), points_at_once, [&](std::ptrdiff_t k, int thread) {
-      ++counts[thread][size.minimum->smallest_field(mesh.points[static_cast<std::size_t>(k)])];
+      const geometry::Vec2 p = mesh.points[static_cast<std::size_t>(k)];
+      const bool is_lowered = !size.lowered_by.empty() && size.field->size(p) < size.minimum->size(p);
+      ++counts[thread][is_lowered ? size.names.size() : size.minimum->smallest_field(p)];
     });
     for (const std::vector<std::int64_t>& its : counts)
       std::ranges::transform(points, its, points.begin(), std::plus<>());
   });
   comm.sum(points);
-  return {size.names, std::move(points)};
+  return {std::move(names), std::move(points)};
 }
 
 std::string text_of(const SizeShares& shares) {

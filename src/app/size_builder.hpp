@@ -28,16 +28,18 @@ struct BuiltSize {
   std::unique_ptr<const sizing::SizeField> field;
   const sizing::MinimumSize* minimum = nullptr; ///< the smallest one of several sizes, among the bases; null: one size
   std::vector<std::string> names;               ///< the sections with these sizes
+  std::string lowered_by;  ///< what makes `field` smaller than `minimum`, such as "size_at"; empty: nothing does
   std::string description; ///< text for the report, such as "automatic, gradation 0.1, features of 0.004 and more"
 };
 
-/// How many points have each of several sizes as the smallest one.
+/// Says how many points have each of several sizes as the smallest one.
 struct SizeShares {
-  std::vector<std::string> names; ///< BuiltSize::names; empty if there is one size
+  std::vector<std::string> names; ///< BuiltSize::names, and lowered_by if it is set; empty if there is one size
   std::vector<std::int64_t> points;
 };
 
-/// @brief Counts the points at which each of several sizes is the smallest one, before bounds and `size_at` lower it.
+/// @brief Counts the points at which each of several sizes is the smallest one. Points where `size_at` or a region
+/// asks for less count for these.
 /// Collective. Cost: one evaluation per point and size, by all threads.
 SizeShares shares_of_sizes(const BuiltSize& size, const mesh::DistributedMesh& mesh, const comm::Communicator& comm);
 

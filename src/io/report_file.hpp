@@ -18,8 +18,8 @@ inline constexpr int report_version = 1;
 /// The end of a run: facts that are not part of its metadata.
 struct Outcome {
   int exit_code = 0;
-  std::vector<std::string> files;    ///< paths of the written files
-  std::vector<std::string> warnings; ///< warnings of the run, as it printed them
+  std::vector<std::string> files;      ///< paths of the written files
+  std::vector<std::string> warnings{}; ///< warnings of the run, as it printed them
 };
 
 /// @brief Returns {"format": "trime_mpi-report", "format_version": 1, "exit_code", "files": [...], "warnings": [...],

@@ -22,7 +22,7 @@ struct CourantOptions {
 struct CourantSummary {
   CourantOptions options;
   std::int64_t triangles = 0, above = 0; ///< all, and those above the limit
-  std::int64_t dry = 0; ///< those without a number, since the mean depth of their corners is not positive
+  std::int64_t dry = 0; ///< triangles without a number, since the mean depth of their corners is not positive
   double largest = 0;   ///< 0 if all triangles are dry
   geometry::Vec2 place; ///< centre of the triangle with the largest number; (0, 0) if all are dry
 };

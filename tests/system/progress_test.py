@@ -188,7 +188,8 @@ class Report(unittest.TestCase):
             done = run(*arguments(work, "--quiet", "--report", work / "r.json"))
             self.assertEqual(done.returncode, 0, done.stderr)
             report = json.loads((work / "r.json").read_text(encoding="utf-8"))
-            self.assertEqual(set(report), {"format", "format_version", "exit_code", "files", "attributes", "groups"})
+            self.assertEqual(set(report), {"format", "format_version", "exit_code", "files", "warnings", "attributes",
+                                           "groups"})
             self.assertEqual((report["format"], report["format_version"]), ("trime_mpi-report", 1))
             self.assertEqual(report["files"], [f"{work}/spade.{ending}" for ending in ("h5", "xdmf", "xmf", "vtkhdf")])
             for name in ("points", "triangles", "mesh_hash_hex", "stop_reason", "seconds_total", "complete"):

@@ -13,7 +13,8 @@ TEST(ReportFile, HoldsAttributesAndColumnsByName) {
   const Metadata metadata{{{"mesh_hash", ~std::uint64_t{0}}, {"share", 0.1}, {"stop_reason", std::string("done")}},
                           {{"config_text", "a long text"}},
                           {{"timers", {{"ranks", std::int64_t{2}}}, {{"avg", std::vector<double>{0.25, 1e-9}}}}}};
-  const nlohmann::json report = nlohmann::json::parse(report_json(metadata, {5, {"out/m.h5"}}));
+  const nlohmann::json report = nlohmann::json::parse(report_json(metadata, {5, {"out/m.h5"}, {"too far"}}));
+  EXPECT_EQ(report["warnings"].get<std::vector<std::string>>(), std::vector<std::string>{"too far"});
   EXPECT_EQ(report["attributes"]["mesh_hash"].get<std::uint64_t>(), ~std::uint64_t{0});
   EXPECT_EQ(report["attributes"]["share"].get<double>(), 0.1); // the same bits
   EXPECT_EQ(report["attributes"]["stop_reason"], "done");

@@ -36,7 +36,7 @@ TEST(ExpressionSize, IsTheFormula) {
 TEST(ExpressionSize, NamesThePlaceWhereItIsNotPositive) {
   for (const auto& [text, found] : {std::pair{"x - 0.5", "found -0.5 at (0, 0)"},
                                     {"1/(y-1)^2", "at (0, 1)"},
-                                    {"sqrt(0.26 - x)", "nan at (0.265625, 0)"}}) {
+                                    {"sqrt(0.26 - x)", "is not a number at (0.265625, 0)"}}) {
     const Formula formula(text, "config.ini:9");
     try {
       const ExpressionSize size(formula, unit_box);
