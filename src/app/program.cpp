@@ -7,6 +7,7 @@
 #include "app/config.hpp"
 #include "app/convert.hpp"
 #include "app/depth.hpp"
+#include "app/file_roles.hpp"
 #include "app/machine.hpp"
 #include "app/old_mesh.hpp"
 #include "app/option_table.hpp"
@@ -16,7 +17,6 @@
 #include "app/run_summary.hpp"
 #include "app/shape_builder.hpp"
 #include "app/size_builder.hpp"
-#include "app/stop_file.hpp"
 #include "boundary/feature_rule.hpp"
 #include "boundary/fixed_points.hpp"
 #include "core/processors.hpp"
@@ -231,7 +231,7 @@ ShapeInput read_input(const Job& job) {
   const RunOptions& options = job.options;
   for (const std::string& warning : options.warnings)
     job.log.warning("{}", warning);
-  check_stop_file(options, job.line, job.comm);
+  check_file_roles(options, job.line, job.comm);
   ShapeInput input = [&] {
     const auto timing = job.timers.scope("shape");
     return read_shape(options, job.is_run() ? ShapeUse::boundary : ShapeUse::queries, job.comm, job.log, job.places);
