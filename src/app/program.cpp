@@ -22,6 +22,7 @@
 #include "core/processors.hpp"
 #include "core/state_fields.hpp"
 #include "core/thread_loop.hpp"
+#include "fitting/expected_points.hpp"
 #include "fitting/points_of_length.hpp"
 #include "fitting/rules.hpp"
 #include "formats/degrees.hpp"
@@ -64,6 +65,16 @@ void check_share(double points, int ranks) {
     throw ConfigError(fmt::format(
         "about {:.3g} points are too many for {} rank{}: a rank can own at most {:.3g}; start at least {:.0f} ranks",
         points, ranks, ranks == 1 ? "" : "s", most, std::ceil(points / most)));
+}
+
+/// Refuses before the output directory is made. The mesher counts the points of its start and checks them again.
+void check_limit(const meshing::MeshOptions& options, double points) {
+  constexpr double surely_more = 1.2; // [limit] the estimate is right to a few per cent
+  if (!options.absolute_sizes || !options.points || points <= surely_more * static_cast<double>(*options.points))
+    return;
+  fitting::FitOptions limit;
+  limit.point_limit = options.points;
+  fitting::check_point_limit(limit, points);
 }
 
 /// Bytes at the peak.
@@ -288,6 +299,8 @@ public:
     if (!job.options.depth.text.empty())
       depth_.emplace(build_formula(job.options.depth, input_.domain(), fields_));
     points_ = meshing::Mesher(job.comm, input_.domain(), *size_.field, mesh_, job.log, job.timers).expected_points();
+    if (job.is_run())
+      check_limit(mesh_, points_);
     check_output();
     if (placement_.threads != placement_.setup_threads)
       use_threads(placement_, placement_.threads);
