@@ -7,6 +7,7 @@
 #include "app/config.hpp"
 #include "app/convert.hpp"
 #include "app/depth.hpp"
+#include "app/file_roles.hpp"
 #include "app/machine.hpp"
 #include "app/old_mesh.hpp"
 #include "app/option_table.hpp"
@@ -16,12 +17,12 @@
 #include "app/run_summary.hpp"
 #include "app/shape_builder.hpp"
 #include "app/size_builder.hpp"
-#include "app/stop_file.hpp"
 #include "boundary/feature_rule.hpp"
 #include "boundary/fixed_points.hpp"
 #include "core/processors.hpp"
 #include "core/state_fields.hpp"
 #include "core/thread_loop.hpp"
+#include "fitting/expected_points.hpp"
 #include "fitting/points_of_length.hpp"
 #include "fitting/rules.hpp"
 #include "formats/degrees.hpp"
@@ -64,6 +65,16 @@ void check_share(double points, int ranks) {
     throw ConfigError(fmt::format(
         "about {:.3g} points are too many for {} rank{}: a rank can own at most {:.3g}; start at least {:.0f} ranks",
         points, ranks, ranks == 1 ? "" : "s", most, std::ceil(points / most)));
+}
+
+/// Refuses before the output directory is made. The mesher counts the points of its start and checks them again.
+void check_limit(const meshing::MeshOptions& options, double points) {
+  constexpr double surely_more = 1.2; // [limit] the estimate is right to a few per cent
+  if (!options.absolute_sizes || !options.points || points <= surely_more * static_cast<double>(*options.points))
+    return;
+  fitting::FitOptions limit;
+  limit.point_limit = options.points;
+  fitting::check_point_limit(limit, points);
 }
 
 /// Bytes at the peak.
@@ -261,7 +272,7 @@ ShapeInput read_input(const Job& job) {
   const RunOptions& options = job.options;
   for (const std::string& warning : options.warnings)
     job.log.warning("{}", warning);
-  check_stop_file(options, job.line, job.comm);
+  check_file_roles(options, job.line, job.comm);
   ShapeInput input = [&] {
     const auto timing = job.timers.scope("shape");
     return read_shape(options, job.is_run() ? ShapeUse::boundary : ShapeUse::queries, job.comm, job.log, job.places);
@@ -321,6 +332,8 @@ public:
     if (!job.options.depth.text.empty())
       depth_.emplace(build_formula(job.options.depth, input_.domain(), fields_));
     points_ = meshing::Mesher(job.comm, input_.domain(), *size_.field, mesh_, job.log, job.timers).expected_points();
+    if (job.is_run())
+      check_limit(mesh_, points_);
     check_output();
     if (placement_.threads != placement_.setup_threads)
       use_threads(placement_, placement_.threads);

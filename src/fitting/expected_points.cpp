@@ -31,6 +31,38 @@ constexpr double finer_guess = 16;
 // [points] Estimates end there: no mesh has more points.
 constexpr double most_points = 1e11;
 
+// [sites] More are not possible on the boundary, since each rank holds all of them, with about 100 bytes each.
+constexpr double most_on_boundary = 5e7;
+
+// [samples] Number along the boundary, for the same check.
+constexpr double boundary_samples = 4096;
+
+/// Sizes in another unit than the coordinates may ask for an absurd number of points, and counting these would take
+/// hours. Local.
+/// @throws ConfigError
+void check_boundary_sizes(const LayoutContext& context) {
+  const double spacing = context.given_boundary.length() / boundary_samples;
+  std::vector<geometry::Vec2> places;
+  double ahead = 0.5 * spacing; // of the start of the piece lies the next sample
+  for (const geometry::Loop& loop : context.given_boundary.loops)
+    for (const geometry::Piece& piece : loop.pieces) {
+      for (; ahead < piece.length(); ahead += spacing)
+        places.push_back(context.given_boundary.periods.wrap(piece.point(ahead)));
+      ahead -= piece.length();
+    }
+  double sites = 0, smallest = INFINITY;
+  for (const double h : sizing::sizes_at(context.asked_size(1), places))
+    if (sizing::is_valid_size(h)) {
+      sites += spacing / h;
+      smallest = std::fmin(smallest, h);
+    }
+  if (sites > most_on_boundary)
+    throw ConfigError(fmt::format("the sizes in [sizing], down to {:.3g}, ask for about {:.2g} points on the boundary "
+                                  "alone, whose length is {:.6g}; at most {:.0e} are possible there. Sizes have the "
+                                  "unit of the coordinates; use larger sizes",
+                                  smallest, sites, context.given_boundary.length(), most_on_boundary));
+}
+
 /// Assumes that the size is distributed in the shape as in the box around it. Local.
 double guessed_points(const LayoutContext& context) {
   const sizing::ScaledSize size = context.asked_size(1);
@@ -53,7 +85,10 @@ double guessed_points(const LayoutContext& context) {
 
 double points_of_sizes(const LayoutContext& context) {
   double points = 0;
-  comm::run_agreed(context.comm, [&] { points = guessed_points(context); });
+  comm::run_agreed(context.comm, [&] {
+    check_boundary_sizes(context);
+    points = guessed_points(context);
+  });
   for (int round = 0; round < sizes_rounds; ++round) {
     const double uniform = estimated_size(context.given_boundary.area, context.given_boundary.length(), points);
     CountEstimate estimate(context, points, FitRules::reference_spacing * uniform, FitRules::reference_coarsening);

@@ -9,7 +9,8 @@ namespace trime::fitting {
 /// @brief Returns the number of points that was asked for, or about as many as the edge length or the absolute sizes
 /// take. Cost: for absolute sizes an integral over the shape with 0.2 cells for each point, at most six times.
 /// Collective.
-/// @throws GeometryError on all ranks together if a size is not positive and finite
+/// @throws GeometryError on all ranks together if a size is not positive and finite; ConfigError if absolute sizes are
+/// so small that no rank could hold the points on the boundary
 double expected_points(const LayoutContext& context);
 
 /// Returns how many of the points asked for are left to the clean-up, which inserts them along curves and interfaces

@@ -5,6 +5,7 @@
 The program reports such a place before the run, and changes nothing that lies there.
 """
 import itertools
+import json
 import os
 import unittest
 
@@ -42,6 +43,18 @@ class Rows:
                   files={"ring.xy": SQUARE}, extra=[stop("ring.xy")])
         yield Row(GOOD, USAGE, [r"stop_file = p\.xy' .* is an input of the run"], files={"p.xy": "0.5 0.5\n"},
                   extra=[stop("p.xy"), "meshing.fixed_points=p.xy"])
+
+    def inputs_that_would_be_replaced(self):
+        """Even where the user lets the run replace files."""
+        here = ["output.directory=.", "output.overwrite=true"]
+        clash = r"{} is an input of the run, and an output of the run has the same path; set output\.name".format
+        ring = json.dumps({"type": "Polygon", "coordinates": [[[0.1, 0.1], [0.9, 0.1], [0.5, 0.9], [0.1, 0.1]]]})
+        config = GOOD.replace(RECTANGLE, CONTOUR.replace("ring.xy", "case.geojson"))
+        yield Row(config, USAGE, [clash(r"case\.geojson")], files={"case.geojson": ring},
+                  extra=[*here, "output.formats=geojson"])
+        yield Row(GOOD, USAGE, [clash(r"case\.vtu")], files={"case.vtu": "0.5 0.5\n"},
+                  extra=[*here, "output.formats=vtu", "meshing.fixed_points=./case.vtu"])
+        yield Row(GOOD, USAGE, [r"case\.ini is the config, and an output"], extra=["--report=case.ini"], modes=([],))
 
 
 class BadOutput(unittest.TestCase):

@@ -124,12 +124,29 @@ class AbsoluteSizes(MeshedSizes):
         config = SQUARE.replace("expression = 1", "expression = 0.02\nscale = absolute")
         with Workspace() as work:
             (work / "size.ini").write_text(config, "ascii")
-            done = run(work / "size.ini", "meshing.points=1000", f"output.directory={work}")
+            done = run(work / "size.ini", "meshing.points=1000", f"output.directory={work / 'new'}")
             self.assertEqual(done.returncode, 2)
             self.assertRegex(done.stderr, "points = 1000 is the limit.* take about [23][0-9]{3} points")
-            self.assertFalse((work / "size.h5").exists())
+            self.assertFalse((work / "new").exists())
             dry = run(work / "size.ini", "--dry-run", f"output.directory={work}")
             self.assertRegex(dry.stdout, "about (29|30)[0-9]{2} points")
+
+    def test_absurd_sizes_at_the_boundary_are_refused_at_once(self):
+        """Their points would be counted for minutes, or hours."""
+        config = SQUARE.replace("expression = 1", "expression = 1\nscale = absolute")
+        small = ((r"5e-08, ask for about 8e\+07", "sizing.expression=1e-9+0.1*dist()"),  # raised to 1e-6 of the largest
+                 (r"1e-09, ask for about 4e\+09", "sizing.type=uniform", "sizing.max_size=0.1",
+                  "sizing.size_at=square 1e-9"))
+        with Workspace() as work:
+            (work / "size.ini").write_text(config, "ascii")
+            for words, *size in small:
+                for more, ranks in (([], 2), (["--validate"], 1)):
+                    done = run(work / "size.ini", *size, f"output.directory={work / 'new'}", *more, ranks=ranks,
+                               timeout=30)
+                    self.assertEqual(done.returncode, 2, done.stdout)
+                    self.assertRegex(done.stderr, rf"sizes in \[sizing\], down to {words} points on the "
+                                                  r"boundary alone, whose length is 4; at most 5e\+07")
+                    self.assertFalse((work / "new").exists())
 
     def test_uniform_and_automatic_sizes(self):
         config = SQUARE.replace("type = expression\nexpression = 1\n", "scale = absolute\nmax_size = 0.03\n")

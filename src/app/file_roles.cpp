@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/stop_file.hpp"
+#include "app/file_roles.hpp"
 
 #include "app/checkpoint_names.hpp"
 #include "comm/agree.hpp"
@@ -8,6 +8,7 @@
 #include "trime/core/error.hpp"
 
 #include <filesystem>
+#include <vector>
 
 namespace trime::app {
 namespace {
@@ -32,11 +33,26 @@ bool is_beside_shapefile(const std::string& file, const std::string& contour) {
          place_of(file).replace_extension() == place_of(contour).replace_extension();
 }
 
+/// Files of the user, which no program can make again.
+std::vector<std::string> inputs_of(const RunOptions& options) {
+  std::vector<std::string> inputs{options.fixed_points.file};
+  const auto add = [&](const auto& sections) {
+    for (const auto& section : sections)
+      inputs.push_back(section.file);
+  };
+  add(options.parts);
+  add(options.regions);
+  add(options.curves);
+  add(options.fields);
+  std::erase(inputs, "");
+  return inputs;
+}
+
 bool is_input(const std::string& file, const RunOptions& options, const CommandLine& line) {
-  for (const PartOptions& part : options.parts)
-    if (is_same(file, part.file) || is_beside_shapefile(file, part.file))
+  for (const std::string& input : inputs_of(options))
+    if (is_same(file, input) || is_beside_shapefile(file, input))
       return true;
-  return is_same(file, options.fixed_points.file) || is_same(file, options.start_file) || is_same(file, line.restart);
+  return is_same(file, options.start_file) || is_same(file, line.restart);
 }
 
 bool is_output(const std::string& file, const RunOptions& options, const CommandLine& line) {
@@ -52,7 +68,7 @@ bool is_output(const std::string& file, const RunOptions& options, const Command
          (folder == place_of(output.path("")) && formats::is_text_mesh_file(name, output.name));
 }
 
-void check(const std::string& file, const RunOptions& options, const CommandLine& line) {
+void check_stop_file(const std::string& file, const RunOptions& options, const CommandLine& line) {
   if (const std::string kind = irregular_kind(file); !kind.empty())
     throw FileError(fmt::format("'stop_file = {}' in [checkpoint]: expected the name of a regular file, or of none "
                                 "yet, found {}; choose another name",
@@ -67,14 +83,29 @@ void check(const std::string& file, const RunOptions& options, const CommandLine
                                   file, role));
 }
 
+void check_inputs(const RunOptions& options, const CommandLine& line) {
+  std::vector<std::string> files = inputs_of(options);
+  files.push_back(line.config);
+  CommandLine writing = line;
+  if (std::error_code error; fs::is_symlink(line.report, error))
+    writing.report.clear(); // a link is refused later
+  for (const std::string& file : files)
+    if (is_output(file, options, writing))
+      throw ConfigError(fmt::format("{} is {}, and an output of the run has the same path; set output.name or "
+                                    "output.directory, so that the run does not replace it",
+                                    file, file == line.config ? "the config" : "an input of the run"));
+}
+
 } // namespace
 
-void check_stop_file(const RunOptions& options, const CommandLine& line, const comm::Communicator& comm) {
-  if (options.checkpoint.stop_file.empty())
-    return;
+void check_file_roles(const RunOptions& options, const CommandLine& line, const comm::Communicator& comm) {
   comm::run_agreed(comm, [&] {
-    if (comm.is_root())
-      check(options.checkpoint.stop_file, options, line);
+    if (!comm.is_root())
+      return;
+    if (const std::string& stop_file = options.checkpoint.stop_file; !stop_file.empty())
+      check_stop_file(stop_file, options, line);
+    if (options.write)
+      check_inputs(options, line);
   });
 }
 
