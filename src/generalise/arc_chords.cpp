@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "generalise/arc_chords.hpp"
 
+#include "generalise/curve_places.hpp"
 #include "generalise/rules.hpp"
 #include "trime/geometry/piece_tree.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -16,11 +19,6 @@ namespace {
 using geometry::InnerArc;
 using geometry::Piece;
 using geometry::Vec2;
-
-// [h] Places of a curve that are nearer to its ends do not count: it may cross the interface or end on it there.
-constexpr double crossing_room = 1;
-// Parts of one piece, and places along one part. A piece with more parts follows nothing.
-constexpr double most_places = 1e7;
 
 /// All circular pieces of interfaces.
 class CircularPieces {
@@ -46,31 +44,26 @@ public:
   /// Marks the arcs that a curve follows.
   void mark_followed(const InnerArc& curve, const sizing::SizeField& size, std::vector<char>& is_followed) const {
     const std::array<Vec2, 2> ends{curve.pieces.front().start, curve.pieces.back().end};
-    for (const Piece& piece : curve.pieces) {
-      const double whole = piece.length(), h = sizing::checked_size(size, piece.start);
-      const double parts = std::fmax(1, std::ceil(whole / (GeneraliseRules::whole_part * h)));
-      for (double part = 0; part < parts && parts <= most_places; ++part) {
-        const double way = whole / parts, middle = (part + 0.5) * way;
-        const Vec2 p = piece.point(middle);
-        const double here = sizing::checked_size(size, p);
-        if (tree_.within(p, 0.5 * way + GeneraliseRules::grown_distance * GeneraliseRules::snap_distance * here)
-                .empty())
-          continue;
-        const double places = std::fmin(std::ceil(way / (GeneraliseRules::place_step * here)), most_places);
-        for (double k = 0; k < places; ++k)
-          mark_near(piece.point(way * (part + (k + 0.5) / places)), curve.closed ? nullptr : &ends, size, is_followed);
-      }
-    }
+    const auto is_near = [&](Vec2 p, double reach, double h) {
+      return !tree_.within(p, reach + GeneraliseRules::grown_distance * GeneraliseRules::snap_distance * h).empty();
+    };
+    visit_places(std::span(curve.pieces), is_near, [&](std::size_t k, double along) {
+      const Vec2 p = curve.pieces[k].point(along);
+      const double h = sizing::checked_size(size, p);
+      mark_near(p, h, curve.closed ? nullptr : &ends, is_followed);
+      return h;
+    });
   }
 
 private:
-  void mark_near(Vec2 p, const std::array<Vec2, 2>* ends, const sizing::SizeField& size,
-                 std::vector<char>& is_followed) const {
-    const double h = sizing::checked_size(size, p);
-    for (const std::size_t k : tree_.within(p, GeneraliseRules::snap_distance * h))
-      if (ends == nullptr ||
-          std::ranges::none_of(*ends, [&](Vec2 end) { return geometry::length(end - p) < crossing_room * h; }))
-        is_followed[arc_of_[k]] = 1;
+  void mark_near(Vec2 p, double h, const std::array<Vec2, 2>* ends, std::vector<char>& is_followed) const {
+    const double to_end =
+        ends == nullptr ? INFINITY : std::fmin(geometry::length((*ends)[0] - p), geometry::length((*ends)[1] - p));
+    if (to_end < GeneraliseRules::place_step * h)
+      return; // it may lie on the interface
+    const double reach = std::fmin(GeneraliseRules::snap_distance * h, GeneraliseRules::narrow_share * to_end);
+    for (const std::size_t k : tree_.within(p, reach))
+      is_followed[arc_of_[k]] = 1;
   }
 
   std::vector<std::size_t> arc_of_; // by piece of the tree

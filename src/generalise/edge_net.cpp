@@ -72,16 +72,17 @@ bool EdgeNet::may_join(LocalIndex e, LocalIndex f) const {
          !border.piece.circular && (border.left == curve.left || border.right == curve.left);
 }
 
-/// Gives the part the name and the direction of the curve, and the regions of the interface, of the two edges. Of two
-/// curves the first one names the edge.
+/// Makes one edge of two, with the regions of the interface if one of them is an interface. The first curve gives it
+/// its name and direction.
 void EdgeNet::join(Edge& part, const Edge& other) const {
   const bool turns = part.a != other.a;
-  const bool is_first = part.is_curve() && (!other.is_curve() || part.piece.part <= other.piece.part);
-  const Edge &curve = is_first ? part : other, &border = is_first ? other : part;
-  Edge joined = curve;
-  joined.left = turns ? border.right : border.left;
-  joined.right = turns ? border.left : border.right;
-  joined.lost = turns ? -border.lost : border.lost;
+  const bool is_first = part.has_name() && (!other.has_name() || part.piece.part <= other.piece.part);
+  const Edge &namer = is_first ? part : other, &border = part.is_interface() ? part : other;
+  const bool is_turned = turns && &namer != &border;
+  Edge joined = namer;
+  joined.left = is_turned ? border.right : border.left;
+  joined.right = is_turned ? border.left : border.right;
+  joined.lost = is_turned ? -border.lost : border.lost;
   joined.moved = std::fmax(part.moved, other.moved);
   part = std::move(joined);
 }

@@ -28,10 +28,12 @@ public:
     std::array<LocalIndex, 2> parts{0, 0}; ///< what it was divided into; both 0 if it was not divided
     bool alive = true;
 
-    /// Returns whether this is an interface without a curve.
-    bool is_interface() const { return piece.part < 0 && left != right; }
+    /// Returns whether this is an interface; a curve may lie on it.
+    bool is_interface() const { return left != right; }
+    /// Returns whether it has the name of a curve.
+    bool has_name() const { return piece.part >= 0; }
     /// Returns whether this is a curve inside a region.
-    bool is_curve() const { return piece.part >= 0 && left == right; }
+    bool is_curve() const { return has_name() && !is_interface(); }
   };
 
   /// @param boundary of the shape, in whose vertices arcs end

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gives the parts of curves that run along the boundary or another curve, nearer than the triangles can show, to that
-// line.
+// Gives the parts of curves that run along the boundary, an interface or another curve, nearer than the triangles can
+// show, to that line.
 #pragma once
 
 #include "generalise/absorb_parts.hpp"
@@ -9,11 +9,15 @@
 
 namespace trime::generalise {
 
-/// @brief Where a curve comes nearer to the boundary, or to a curve before it, than GeneraliseRules::snap_distance h,
-/// its part that lies within GeneraliseRules::rim_distance h of that line belongs to that line. What is left of the
-/// curve ends on the line, at the foot of the perpendicular there or at a near vertex. A free end next to
-/// the boundary belongs to that part, and so does one that follows another curve for more than about h. A curve may
-/// lose all of its edges.
+/// @brief Where a curve comes nearer to the boundary, to an interface, or to a curve before it, than
+/// GeneraliseRules::snap_distance h, its part that lies within GeneraliseRules::rim_distance h of that line belongs to
+/// that line. What is left of the curve ends on the line, at the foot of the perpendicular there or at a near vertex. A
+/// free end next to the boundary or an arc of a circle belongs to that part, and so does one that follows another line
+/// for more than about h. A curve may lose all of its edges.
+///
+/// An interface has the name and the direction of the first curve that belongs to it between two vertices in which
+/// arcs end, if more than half of its way between them is followed. It stays where it is, also if it is an arc of a
+/// circle.
 ///
 /// A curve that leaves the line at more than about 20 degrees stays. So do straight lines that meet the line at any
 /// angle, interfaces, curves that are split, weirs, and parts with a place that the user asked for. A node in which

@@ -121,36 +121,46 @@ private:
   Segment segment(LocalIndex e) const { return {net_.edge(e).piece.start, net_.edge(e).piece.end}; }
 
   /// May the edge lead through the vertex? One of both belongs to a curve and the other one to an interface or to
-  /// another curve, and the line of the edge does not pass the vertex already.
+  /// another curve, and the line of the edge does not pass the vertex already. Two curves that meet, and a curve and
+  /// the interface on which it goes on, must follow each other closely.
   bool may_meet(LocalIndex v, LocalIndex e, const ShortWays& ways) const {
     const EdgeNet::Edge& edge = net_.edge(e);
-    const bool is_curve = edge.is_curve(), is_interface = edge.is_interface();
-    if (edge.piece.circular || v == edge.a || v == edge.b || (!is_curve && !is_interface))
+    if (edge.piece.circular || v == edge.a || v == edge.b || (!edge.is_curve() && !edge.is_interface()))
       return false;
-    bool is_other = false, is_of_curve = false;
+    bool is_other = false, goes_on = false;
     for (const LocalIndex f : net_.around(v)) {
       const EdgeNet::Edge& its = net_.edge(f);
-      if (is_curve ? its.arc == edge.arc : std::minmax(its.left, its.right) == std::minmax(edge.left, edge.right))
+      if (edge.is_curve() ? its.arc == edge.arc
+                          : std::minmax(its.left, its.right) == std::minmax(edge.left, edge.right))
         return false;
-      is_other |= is_curve ? its.left != its.right && its.piece.part != edge.piece.part : its.piece.part >= 0;
-      is_of_curve |= is_curve && may_be_one(its, edge);
+      const bool is_border = its.is_interface() != edge.is_interface(); // a curve and an interface
+      if (is_border && (its.piece.part == edge.piece.part || its.piece.circular))
+        goes_on = true;
+      else if (is_border && (its.has_name() || edge.is_curve()))
+        is_other = true;
+      else
+        goes_on |= may_be_one(its, edge);
     }
-    return is_other || (is_of_curve && (is_sliver(v, e) || is_narrow(v, e, ways)));
+    return is_other || (goes_on && (is_sliver(v, e) || is_narrow(v, e, ways)));
   }
 
   bool is_split(int part) const {
     return static_cast<std::size_t>(part) < kinds_.size() && kinds_[static_cast<std::size_t>(part)].split;
   }
 
-  /// May edges of two curves become one edge? A split curve keeps all of its edges.
+  /// May one edge have the names of both? A split curve keeps all of its edges.
+  bool may_share_name(const EdgeNet::Edge& one, const EdgeNet::Edge& other) const {
+    return !one.has_name() || !other.has_name() || one.piece.part == other.piece.part ||
+           (!is_split(one.piece.part) && !is_split(other.piece.part));
+  }
+
+  /// May edges of two curves become one edge?
   bool may_be_one(const EdgeNet::Edge& one, const EdgeNet::Edge& other) const {
-    return one.is_curve() && other.is_curve() && one.left == other.left &&
-           (one.piece.part == other.piece.part || (!is_split(one.piece.part) && !is_split(other.piece.part)));
+    return one.is_curve() && other.is_curve() && one.left == other.left && may_share_name(one, other);
   }
 
   bool may_join(LocalIndex e, LocalIndex f) const {
-    const EdgeNet::Edge &one = net_.edge(e), &other = net_.edge(f);
-    return one.is_curve() && other.is_curve() ? may_be_one(one, other) && net_.may_join(e, f) : net_.may_join(e, f);
+    return may_share_name(net_.edge(e), net_.edge(f)) && net_.may_join(e, f);
   }
 
   /// Do edges lead from the vertex to both ends of the edge? The nodes of smaller triangles become one instead.

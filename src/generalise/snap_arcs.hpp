@@ -38,6 +38,9 @@ struct JoinedLines {
   double longest_end = 0;      ///< length of the longest of them
   JoinedParts rim{};           ///< parts of curves that belong to the boundary
   JoinedParts lines{};         ///< parts of curves that belong to other curves
+  JoinedParts interfaces{};    ///< parts of curves that belong to interfaces between regions
+  /// Returns the total length of the parts that belong to other lines.
+  double length() const { return rim.length + lines.length + interfaces.length; }
   /// Takes in what was joined later.
   void add(const JoinedLines& later) {
     vertices += later.vertices;
@@ -45,6 +48,7 @@ struct JoinedLines {
     longest_end = longest_end > later.longest_end ? longest_end : later.longest_end;
     rim.add(later.rim);
     lines.add(later.lines);
+    interfaces.add(later.interfaces);
     if (later.farthest > farthest) {
       farthest = later.farthest;
       place = later.place;

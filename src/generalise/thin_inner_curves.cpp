@@ -290,14 +290,15 @@ Partition without_slivers(Partition given, const ArcRequest& request, std::span<
   return made;
 }
 
-/// Joins curves with the boundary and with each other. Circular interfaces become chords where curves follow them.
+/// Joins curves with the boundary, with interfaces and with each other. Circular interfaces become chords where curves
+/// follow them that had to stay: snap() joins straight lines only.
 Partition with_joined_lines(Partition given, const ArcRequest& request) {
   given.curves.on_boundary.clear(); // which belongs to the curves as they were given
   given.curves.outside.clear();
-  if (std::optional<Partition> straight = with_chords_along_curves(given, request))
-    given = std::move(*straight);
-  std::optional<Partition> joined = join_lines(given, request);
-  return joined ? std::move(*joined) : std::move(given);
+  if (std::optional<Partition> joined = join_lines(given, request))
+    given = std::move(*joined);
+  std::optional<Partition> straight = with_chords_along_curves(given, request);
+  return straight ? std::move(*straight) : std::move(given);
 }
 
 } // namespace

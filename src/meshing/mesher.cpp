@@ -285,12 +285,13 @@ void Run::warn_of_joined_lines(const fitting::JoinedLines& lines) {
     if (parts.length > 0)
       run_.log.warning(
           "curves that follow {}, or end just before it, nearer than the triangles can show belong to it over a length "
-          "of {:.3g} in total; the edges there have only {}; the largest distance was {:.3g}, at {}; keep_features = "
+          "of {:.3g} in total; the edges there {}; the largest distance was {:.3g}, at {}; keep_features = "
           "true keeps both lines",
           other, parts.length, effect, parts.farthest, Place(parts.place, 6));
   };
-  warn(lines.rim, "the boundary", "the name of the boundary");
-  warn(lines.lines, "another curve", "the name of that curve");
+  warn(lines.rim, "the boundary", "have only the name of the boundary");
+  warn(lines.lines, "another curve", "have only the name of that curve");
+  warn(lines.interfaces, "an interface", "are those of the interface, with the name of the curve");
   if (lines.loose_ends > 0)
     run_.log.summary(
         "{} end{} of curves beyond other curves or interfaces {} left out, because {} shorter than 0.1 h; the "

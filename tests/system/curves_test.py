@@ -240,6 +240,36 @@ class Curves(WorkspaceCase):
         self.assertEqual(nodes[(0, 0.5)], 1)
         self.assertEqual(len(nodes), 6)  # three lines are left
 
+    def test_along_interfaces(self):
+        """Curves along a wavy border and along a circle, a curve that weaves over the border, and two on both sides."""
+        h = 1.07 / math.sqrt(2000)
+
+        def border(angle, away=0.0):
+            radius = away + 0.15 * (1 + 0.08 * math.sin(2 * angle) + 0.04 * math.sin(3 * angle + 1))
+            return (0.3 + radius * math.cos(angle), 0.3 + radius * math.sin(angle))
+
+        def ring(radius, first, last):
+            angles = [first + (last - first) * k / 60 for k in range(61)]
+            return [(0.7 + radius * math.cos(a), 0.7 + radius * math.sin(a)) for a in angles]
+
+        def write(name, *lines):
+            self.write(name, *lines)
+            return self.directory / name
+
+        wavy = write("border.xy", [border(2 * math.pi * k / 60) for k in range(61)])
+        self.write("fault.xy", [(0.03, 0.6)] + [border(2 - 0.05 * k, 0.15 * h) for k in range(40)])
+        self.write("river.xy", [border(3.5 + 0.01 * k, 0.3 * h * math.sin(0.09 * k)) for k in range(200)])
+        self.write("outside.xy", ring(0.15 + 0.1 * h, 0, 2))
+        self.write("inside.xy", ring(0.15 - 0.1 * h, 1, 3), [(0.6, 0.85 - 0.1 * h), (0.95, 0.85 - 0.1 * h)])
+        regions = (f"[shape.wavy]\ntype = contour\nfile = {wavy}\n[region.wavy]\ngeometry = wavy\n"
+                   "[shape.round]\ntype = circle\ncenter = 0.7 0.7\nradius = 0.15\n[region.round]\ngeometry = round\n")
+        curves = "".join(section(name, f"{name}.xy") for name in ("fault", "river", "outside", "inside"))
+        made = [self.mesh(curves + regions, ranks=ranks) for ranks in (1, 3)]
+        self.assertEqual(made[0].hash, made[1].hash)
+        self.assertIn("follow an interface, or end just before it", self.report)
+        self.assertLess(made[0].alpha().max(), 1.5)
+        self.assertAlmostEqual(made[0].length("outside"), 0.15 * 2, delta=h)
+
     def test_more_curves_than_points(self):
         """A net that is finer than the triangles: refused soon, with the number that it takes."""
         lines = [[(k / 16 + 0.03, 0), (k / 16 + 0.03, 1)] for k in range(16)]

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tests that curves which run along the boundary belong to it, and that others stay.
+// Tests that curves which run along the boundary, interfaces or other curves belong to them, and that others stay.
 #include "generalise/join_lines.hpp"
 
 #include "arc_paths.hpp"
+#include "geometry/piece_parts.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/geometry/lattice.hpp"
 #include "trime/sizing/size_field.hpp"
@@ -10,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -228,6 +230,134 @@ TEST_F(JoinLines, RingsAroundACircle) {
   }
   for (std::size_t k = 1; k < rest.pieces.size(); ++k)
     EXPECT_EQ(rest.pieces[k - 1].end, rest.pieces[k].start);
+}
+
+class JoinInterfaces : public JoinCurves {
+protected:
+  /// A circle between region 1 inside and region 0 around it, without a name.
+  InnerArc circle() const {
+    InnerArc made;
+    made.pieces = {{.start = at(0.7, 0.5), .end = at(0.7, 0.5), .center = {0.5, 0.5}, .radius = 0.2}};
+    made.pieces[0].sweep = 2 * std::numbers::pi;
+    made.pieces[0].circular = true;
+    made.pieces[0].part = -1;
+    made.left = 1;
+    made.right = 0;
+    made.closed = true;
+    return made;
+  }
+  /// Region 1 lies below.
+  InnerArc interface() const { return arc_of({at(0.05, 0.5), at(0.95, 0.5)}, -1, 0, 1); }
+};
+
+TEST_F(JoinInterfaces, AnInterfaceHasTheNameOfACurveWhereItFollows) {
+  for (const bool is_backward : {false, true}) {
+    std::vector<Vec2> path{at(0.2, 0.9), at(0.3, 0.5 + 0.1 * h), at(0.6, 0.5 + 0.1 * h), at(0.7, 0.9)};
+    if (is_backward)
+      std::ranges::reverse(path);
+    const std::optional<Partition> made = joined({arc_of(path, 1, 0, 0), interface()});
+    ASSERT_TRUE(made);
+    ASSERT_EQ(made->curves.arcs.size(), 5U); // two rests of the curve, three parts of the interface
+    const std::vector<InnerArc>& arcs = made->curves.arcs;
+    for (const std::size_t k : {2U, 4U}) {
+      EXPECT_EQ(arcs[k].pieces.front().part, -1);
+      EXPECT_EQ(arcs[k].right, 1);
+    }
+    const InnerArc& named = arcs[3];
+    EXPECT_EQ(named.pieces.front().part, 1);
+    EXPECT_EQ(named.left, is_backward ? 1 : 0); // it leads where the curve led
+    EXPECT_EQ(named.right, is_backward ? 0 : 1);
+    EXPECT_EQ(named.pieces.front().start, arcs[0].pieces.back().end);
+    EXPECT_EQ(named.pieces.back().end, arcs[1].pieces.front().start);
+    EXPECT_NEAR(std::fabs(named.pieces.back().end.x - named.pieces.front().start.x), 0.3, h);
+    EXPECT_GT(made->joined.interfaces.length, 0.29);
+    EXPECT_EQ(made->joined.lines.length + made->joined.rim.length, 0);
+  }
+}
+
+TEST_F(JoinInterfaces, ACurveThatEndsBesideAnInterfaceNamesItUpToThere) {
+  InnerArc below = line(0.3, 0.6, 0.5 - 0.1 * h, 0, 0);
+  below.left = below.right = 1;
+  const std::optional<Partition> made = joined({interface(), below});
+  ASSERT_TRUE(made);
+  ASSERT_EQ(made->curves.arcs.size(), 3U);
+  const Piece& named = made->curves.arcs[1].pieces.front();
+  EXPECT_EQ(named.part, 0);
+  EXPECT_NEAR(named.start.x, 0.3, 1e-12);
+  EXPECT_NEAR(named.end.x, 0.6, 1e-12);
+  below.left = below.right = 2; // not next to the interface
+  EXPECT_FALSE(joined({interface(), below}));
+}
+
+TEST_F(JoinInterfaces, ARingAroundACircleNamesIt) {
+  const std::optional<Partition> made = joined({ring(0.2 + 0.1 * h, 0), circle()});
+  ASSERT_TRUE(made);
+  ASSERT_EQ(made->curves.arcs.size(), 1U);
+  const InnerArc& named = made->curves.arcs[0];
+  EXPECT_TRUE(named.closed && named.pieces.size() == 1 && named.pieces[0].circular);
+  EXPECT_EQ(named.pieces[0].part, 0);
+  EXPECT_EQ(named.left, 1);
+  EXPECT_EQ(named.lost_area, 0);
+}
+
+TEST_F(JoinInterfaces, ACurveOverTheStartOfACircleNamesOnePartOfIt) {
+  InnerArc arc = ring(0.2 - 0.1 * h, 0); // from an angle of -90 to one of 90 degrees
+  arc.closed = false;
+  arc.left = arc.right = 1;
+  std::rotate(arc.pieces.begin(), arc.pieces.begin() + 75, arc.pieces.end());
+  arc.pieces.resize(50);
+  const std::optional<Partition> made = joined({arc, circle()});
+  ASSERT_TRUE(made);
+  ASSERT_EQ(made->curves.arcs.size(), 2U);
+  double sweep = 0;
+  for (const InnerArc& part : made->curves.arcs) {
+    const bool is_named = part.pieces.front().part == 0;
+    double its = 0;
+    for (const Piece& piece : part.pieces) {
+      EXPECT_TRUE(piece.circular);
+      EXPECT_EQ(piece.part, part.pieces.front().part);
+      its += piece.sweep;
+    }
+    EXPECT_NEAR(its, std::numbers::pi, 1e-9);
+    EXPECT_EQ(part.pieces.front().start.y < 0.5, is_named);
+    sweep += its;
+  }
+  EXPECT_NEAR(sweep, 2 * std::numbers::pi, 1e-12);
+}
+
+TEST_F(JoinInterfaces, AShortChordOfACircleBelongsToIt) {
+  std::vector<InnerArc> arcs{arc_of({at(0.7, 0.5), {}}, 0, 1, 1), circle()};
+  for (const double degrees : {5.0, 15.0}) {
+    const double angle = degrees * std::numbers::pi / 180;
+    const Vec2 end = at(0.5 + 0.2 * std::cos(angle), 0.5 + 0.2 * std::sin(angle));
+    arcs[0].pieces[0].end = end;
+    arcs.resize(2);
+    arcs[1] = circle();
+    arcs.push_back(arcs[1]);
+    for (InnerArc* part : {&arcs[1], &arcs[2]})
+      part->closed = false;
+    const std::array<Piece, 2> parts = geometry::divided(circle().pieces[0], end);
+    arcs[1].pieces = {parts[0]};
+    arcs[2].pieces = {parts[1]};
+    const std::optional<Partition> made = joined(arcs);
+    ASSERT_TRUE(made) << degrees;
+    ASSERT_EQ(made->curves.arcs.size(), 2U) << degrees;
+    EXPECT_EQ(made->curves.arcs[0].pieces.front().part, 0);
+    EXPECT_EQ(made->curves.arcs[1].pieces.front().part, -1);
+  }
+}
+
+TEST_F(JoinInterfaces, OfCurvesOnBothSidesTheFirstOneCounts) {
+  InnerArc below = line(0.05, 0.95, 0.5 - 0.1 * h, 0, 0);
+  below.left = below.right = 1;
+  const InnerArc above = line(0.05, 0.95, 0.5 + 0.1 * h, 0, 1);
+  for (const bool is_first : {false, true}) {
+    const std::optional<Partition> made =
+        joined(is_first ? std::vector{below, above, interface()} : std::vector{above, interface(), below});
+    ASSERT_TRUE(made);
+    ASSERT_EQ(made->curves.arcs.size(), 1U);
+    EXPECT_EQ(made->curves.arcs[0].pieces.front().part, 0);
+  }
 }
 
 } // namespace
