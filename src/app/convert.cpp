@@ -248,22 +248,33 @@ std::string open_boundary_text(const Metadata& metadata) {
   return text + "\n";
 }
 
+/// The Courant numbers; nothing if the run asked for none, or came before their triangles were counted.
+std::string courant_text(const Metadata& metadata) {
+  const io::MetadataGroup* courant = io::find_group(metadata, "courant");
+  if (courant == nullptr ||
+      std::ranges::find(courant->attributes, "dry", &io::Attribute::name) == courant->attributes.end())
+    return {};
+  const auto dry = value_of<std::int64_t>(*courant, "dry"), wet = value_of<std::int64_t>(*courant, "triangles") - dry;
+  std::string text = fmt::format("Courant         time step {:g} s: ", value_of<double>(*courant, "time_step"));
+  if (wet > 0)
+    text += fmt::format("{} of {} wet triangles above {:g}, the largest {:.3g} at ({:.9g}, {:.9g}); ",
+                        value_of<std::int64_t>(*courant, "above"), wet, value_of<double>(*courant, "limit"),
+                        value_of<double>(*courant, "largest"), value_of<double>(*courant, "largest_x"),
+                        value_of<double>(*courant, "largest_y"));
+  return text + fmt::format("{} triangles without a positive depth\n", dry);
+}
+
 /// The depths and the Courant numbers that follow from them; nothing if the run asked for none.
 std::string depth_text(const Metadata& metadata) {
   std::string text;
-  if (const io::MetadataGroup* depth = io::find_group(metadata, "depth"))
-    text += fmt::format("\ndepths          from {:.6g} to {:.6g}, positive at {} of {} points\n",
-                        value_of<double>(*depth, "least"), value_of<double>(*depth, "most"),
-                        value_of<std::int64_t>(*depth, "positive"), value_text(metadata, "points"));
-  if (const io::MetadataGroup* courant = io::find_group(metadata, "courant"))
-    text +=
-        fmt::format("Courant         time step {:g} s: {} of {} triangles above {:g}, the largest {:.3g} at ({:.9g}, "
-                    "{:.9g}); {} without a positive depth\n",
-                    value_of<double>(*courant, "time_step"), value_of<std::int64_t>(*courant, "above"),
-                    value_text(metadata, "triangles"), value_of<double>(*courant, "limit"),
-                    value_of<double>(*courant, "largest"), value_of<double>(*courant, "largest_x"),
-                    value_of<double>(*courant, "largest_y"), value_of<std::int64_t>(*courant, "dry"));
-  return text;
+  if (const io::MetadataGroup* depth = io::find_group(metadata, "depth")) {
+    const auto least = value_of<double>(*depth, "least"), most = value_of<double>(*depth, "most");
+    text += least <= most ? fmt::format("\ndepths          from {:.6g} to {:.6g}", least, most)
+                          : "\ndepths          none is a number";
+    text += fmt::format(", positive at {} of {} points\n", value_of<std::int64_t>(*depth, "positive"),
+                        value_text(metadata, "points"));
+  }
+  return text + courant_text(metadata);
 }
 
 /// The rules of models; nothing if the run asked for none.

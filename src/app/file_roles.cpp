@@ -96,6 +96,20 @@ void check_inputs(const RunOptions& options, const CommandLine& line) {
                                     file, file == line.config ? "the config" : "an input of the run"));
 }
 
+/// The report replaces what stands at its path, also where the run writes no mesh.
+void check_report(const RunOptions& options, const CommandLine& line) {
+  if (std::error_code error; line.report.empty() || fs::is_symlink(line.report, error))
+    return; // a link is refused later
+  CommandLine others = line;
+  others.report.clear();
+  const char* role = is_same(line.report, line.config)                          ? "the config"
+                     : is_input(line.report, options, line)                     ? "an input of the run"
+                     : options.write && is_output(line.report, options, others) ? "another output of the run"
+                                                                                : nullptr;
+  if (role)
+    throw ConfigError(fmt::format("'--report {}' is {}; choose a name that no other file has", line.report, role));
+}
+
 } // namespace
 
 void check_file_roles(const RunOptions& options, const CommandLine& line, const comm::Communicator& comm) {
@@ -104,6 +118,7 @@ void check_file_roles(const RunOptions& options, const CommandLine& line, const 
       return;
     if (const std::string& stop_file = options.checkpoint.stop_file; !stop_file.empty())
       check_stop_file(stop_file, options, line);
+    check_report(options, line);
     if (options.write)
       check_inputs(options, line);
   });

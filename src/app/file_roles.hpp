@@ -11,8 +11,8 @@ namespace trime::app {
 
 /// @brief Checks that no output of the run has the path of its config or of a file that it reads, even if
 /// `output.overwrite` allows to replace files. The mesh file and the checkpoint from which the run starts may be
-/// replaced. Also checks that the stop file (key `checkpoint.stop_file`) is neither the config nor a file that the run
-/// reads or writes.
+/// replaced. Also checks that the report is neither one of these files nor another output, and that the stop file (key
+/// `checkpoint.stop_file`) is neither the config nor a file that the run reads or writes.
 /// @throws ConfigError if a file has two roles; FileError if the stop file exists and is not a regular file; on all
 /// ranks together
 /// @note Collective.

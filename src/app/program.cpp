@@ -69,7 +69,8 @@ void check_share(double points, int ranks) {
 
 /// Refuses before the output directory is made. The mesher counts the points of its start and checks them again.
 void check_limit(const meshing::MeshOptions& options, double points) {
-  constexpr double surely_more = 1.2; // [limit] the estimate is right to a few per cent
+  // [limit] The estimate does not simplify the boundary as the run does: at a coast of fractals it was twice as high.
+  constexpr double surely_more = 10;
   if (!options.absolute_sizes || !options.points || points <= surely_more * static_cast<double>(*options.points))
     return;
   fitting::FitOptions limit;

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -47,7 +48,8 @@ public:
     const auto is_near = [&](Vec2 p, double reach, double h) {
       return !tree_.within(p, reach + GeneraliseRules::grown_distance * GeneraliseRules::snap_distance * h).empty();
     };
-    visit_places(std::span(curve.pieces), is_near, [&](std::size_t k, double along) {
+    // Of a curve with too many places, those before count.
+    std::ignore = visit_places(std::span(curve.pieces), is_near, [&](std::size_t k, double along) {
       const Vec2 p = curve.pieces[k].point(along);
       const double h = sizing::checked_size(size, p);
       mark_near(p, h, curve.closed ? nullptr : &ends, is_followed);

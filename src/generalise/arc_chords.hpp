@@ -19,7 +19,8 @@ double area_on_chord(double length, double sweep);
 
 /// @brief Makes chords of the circular interfaces that a curve follows nearer than GeneraliseRules::snap_distance h:
 /// only straight lines are joined. A curve that crosses an interface, or ends on it, at more than about 20 degrees
-/// follows nothing there. InnerArc::lost_area says what the chords take from the region on the left. Cost: O(m log n) for n circular pieces and m places along curves, which are 0.1 h apart next to these pieces.
+/// follows nothing there. InnerArc::lost_area says what the chords take from the region on the left. Cost: O(m log n)
+/// for n circular pieces and m places along curves, which are 0.1 h apart next to these pieces.
 /// @return nothing if no curve follows a circular interface
 /// @pre the container is not periodic
 /// @throws GeometryError if a size is not positive and finite

@@ -7,6 +7,9 @@
 namespace trime::generalise {
 namespace {
 
+// [h] Without the way between the samples, of which the line may lead three times as far.
+constexpr double longest_jump = 1.0;
+
 using geometry::InnerArc;
 using geometry::Lattice;
 using geometry::Piece;
@@ -36,6 +39,10 @@ std::vector<Piece> part_of(const std::vector<Piece>& pieces, const Sample& from,
 
 bool Sample::is_near() const {
   return distance < GeneraliseRules::rim_distance * h;
+}
+
+double longest_way_beside(const Sample& before, const Sample& behind) {
+  return longest_jump * behind.h + 3 * (behind.way - before.way);
 }
 
 Piece ArcCuts::edge(Vec2 from, Vec2 to, const Lattice& lattice) const {

@@ -20,7 +20,7 @@ namespace trime::generalise {
 /// size h there, which is positive
 /// @return false if the curve has more than most_places; then the rest is not visited
 template <class IsNear, class Visit>
-bool visit_places(std::span<const geometry::Piece> pieces, IsNear&& is_near, Visit&& visit) {
+[[nodiscard]] bool visit_places(std::span<const geometry::Piece> pieces, IsNear&& is_near, Visit&& visit) {
   constexpr std::size_t most_places = 10'000'000; // along one curve
   std::size_t places = 0;
   for (std::size_t k = 0; k < pieces.size(); ++k) {

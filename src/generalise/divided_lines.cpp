@@ -62,16 +62,19 @@ void DividedLines::follow(const ArcCuts& cuts, const SampleRun& run, int part) {
     if (arc.left == arc.right || arc.pieces.front().part >= 0)
       continue;
     double from = way_of(before->at, before->place), to = way_of(one.at, one.place);
-    const double whole = lines_[lines_.first_of(number) + arc.pieces.size() - 1].way + arc.pieces.back().length();
-    if (arc.closed && std::fabs(to - from) > 0.5 * whole) // over the place where the ring begins
+    const double whole = lines_.length_of(number);
+    const bool is_ring = arc.pieces.front().start == arc.pieces.back().end;
+    if (is_ring && std::fabs(to - from) > 0.5 * whole) // over the place where the ring begins
       (from < to ? from : to) += whole;
+    if (std::fabs(to - from) > longest_way_beside(*before, one))
+      continue;
     followed_[number].push_back({std::fmin(from, to), std::fmax(from, to), to < from, part});
   }
 }
 
 std::vector<InnerArc> DividedLines::parts_of(std::size_t number) const {
   const InnerArc& given = arcs_[number];
-  const double whole = lines_[lines_.first_of(number) + given.pieces.size() - 1].way + given.pieces.back().length();
+  const double whole = lines_.length_of(number);
   std::vector<Part> parts(1, {given, 0, whole});
   parts[0].arc.pieces.clear();
   bool is_divided = false;

@@ -12,7 +12,8 @@
 
 namespace trime::generalise {
 
-/// What happens to the lines to which parts of other arcs belong from now on. Refers to the lines and the arcs.
+/// Notes where lines that take over parts of other arcs get vertices and names, and divides them there. Refers to the
+/// lines and the arcs.
 class DividedLines {
 public:
   DividedLines(const LinePieces& lines, const std::vector<geometry::InnerArc>& arcs) : lines_(lines), arcs_(arcs) {}

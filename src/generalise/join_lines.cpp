@@ -30,9 +30,6 @@ constexpr double vertex_reach = 0.25;
 // [h] Two ends on another line that are nearer to each other become one. Then both arcs still meet that line at more
 // than 20 degrees.
 constexpr double one_foot = 1.0;
-// [h] A part follows a line if its places do not jump farther along it than this and three times the way between them:
-// around a corner they do.
-constexpr double longest_jump = 1.0;
 // [h] Parts next to other lines become one if the way between them is shorter, and reach to a free end that is nearer.
 constexpr double shortest_rest = 1.0;
 // [h] An end that is so near to another line lies on it.
@@ -184,8 +181,8 @@ private:
     return runs;
   }
 
-  /// Does a straight piece of an arc have this number? snap() moves it to an end just before it.
-  bool is_straight_arc(std::size_t at) const {
+  /// Is this a straight piece of an arc inside? snap() moves it to an end just before it.
+  bool is_straight_inner_piece(std::size_t at) const {
     return lines_[at].arc != LinePieces::rim && !lines_[at].piece->circular;
   }
 
@@ -217,7 +214,7 @@ private:
     }
     for (std::size_t k = run.first; k <= run.last; ++k) {
       is_tight = is_tight || all[k].distance < GeneraliseRules::snap_distance * all[k].h;
-      is_end = is_end && (!all[k].is_near() || is_straight_arc(all[k].at));
+      is_end = is_end && (!all[k].is_near() || is_straight_inner_piece(all[k].at));
     }
     const double way = all[run.last].way - all[run.first].way;
     const bool is_long = way * GeneraliseRules::narrow_share > GeneraliseRules::rim_distance * all[run.first].h;
@@ -264,9 +261,9 @@ private:
       if (!all[k].is_near())
         continue;
       if (last != nullptr &&
-          (!hang_together(last->at, all[k].at) || length(nearest_on(*lines_[last->at].piece, last->place) -
-                                                         nearest_on(*lines_[all[k].at].piece, all[k].place)) >
-                                                      longest_jump * all[k].h + 3 * (all[k].way - last->way)))
+          (!hang_together(last->at, all[k].at) ||
+           length(nearest_on(*lines_[last->at].piece, last->place) -
+                  nearest_on(*lines_[all[k].at].piece, all[k].place)) > longest_way_beside(*last, all[k])))
         return false;
       last = &all[k];
     }
@@ -302,7 +299,9 @@ private:
         feet[side] = foot_of(cuts.beyond(run, side), all[k]);
       else if (ends_at_interface(cuts, all[k]))
         feet[side] = foot_of(all[k], all[k]);
-    if (feet[0] && feet[1] && length(feet[1]->place - feet[0]->place) < one_foot * all[run.first].h) {
+    const bool names_part = cuts.is_end(run, 0) != cuts.is_end(run, 1); // up to a free end
+    const double nearest_feet = (names_part ? vertex_reach : one_foot) * all[run.first].h;
+    if (feet[0] && feet[1] && length(feet[1]->place - feet[0]->place) < nearest_feet) {
       const auto nearest =
           std::ranges::min_element(all.begin() + static_cast<std::ptrdiff_t>(run.first),
                                    all.begin() + static_cast<std::ptrdiff_t>(run.last) + 1, {}, &Sample::distance);

@@ -29,7 +29,12 @@ double way_on(const Piece& piece, Vec2 p) {
     return 0;
   if (p == piece.end)
     return piece.length();
-  return piece.circular ? geometry::divided(piece, p)[0].length() : length(p - piece.start);
+  if (!piece.circular)
+    return length(p - piece.start);
+  const double way = geometry::divided(piece, p)[0].length(), whole = piece.length();
+  if (way <= whole)
+    return way;
+  return squared_length(p - piece.start) < squared_length(p - piece.end) ? 0 : whole; // rounding led beyond an end
 }
 
 LinePieces::LinePieces(const geometry::Boundary& boundary, const std::vector<InnerArc>& arcs) {
@@ -50,6 +55,8 @@ void LinePieces::add(int arc, std::size_t loop, const std::vector<Piece>& pieces
     lines_.push_back({arc, loop, k, way, &pieces[k]});
     way += pieces[k].length();
   }
+  if (arc != rim)
+    length_of_.push_back(way);
 }
 
 bool LinePieces::meets(const Piece& edge, std::size_t except, const OwnPieces& own) const {

@@ -38,6 +38,8 @@ public:
   const Line& operator[](std::size_t k) const { return lines_[k]; }
   /// Returns the number of the first piece of an arc.
   std::size_t first_of(std::size_t arc) const { return first_of_[arc]; }
+  /// Returns the length of an arc.
+  double length_of(std::size_t arc) const { return length_of_[arc]; }
   /// Returns the numbers of the pieces that are nearer to p than this, ascending.
   std::vector<std::size_t> within(geometry::Vec2 p, double distance) const { return tree_.within(p, distance); }
   /// Returns whether a straight piece meets another piece. @param except a piece that does not count @param own further
@@ -49,6 +51,7 @@ private:
 
   std::vector<Line> lines_;
   std::vector<std::size_t> first_of_; // by arc
+  std::vector<double> length_of_;     // by arc
   geometry::PieceTree tree_;
 };
 

@@ -74,7 +74,8 @@ class ArcSnapper {
 public:
   ArcSnapper(const std::vector<InnerArc>& arcs, const Boundary& boundary, const ArcRules& rules,
              const VertexTree& vertices)
-      : boundary_(boundary), size_(rules.size), kinds_(rules.kinds), vertices_(vertices), net_(arcs, boundary) {
+      : boundary_(boundary), size_(rules.size), kinds_(rules.kinds), interfaces_(rules.interfaces), vertices_(vertices),
+        net_(arcs, boundary) {
     for (const geometry::Loop& loop : boundary.loops)
       rim_.insert(rim_.end(), loop.pieces.begin(), loop.pieces.end());
   }
@@ -234,7 +235,7 @@ private:
     if (e < 0 || !may_meet(v, e, ways_from(v, std::sqrt(pair_of(v, e).squared_distance))))
       return;
     const double distance = std::sqrt(pair_of(v, e).squared_distance), reach = reach_at(v);
-    if (!(distance + net_.edge(e).moved < reach) || !is_free(v, e, reach))
+    if (!(distance + net_.edge(e).moved < reach) || !stays_near(e, v) || !is_free(v, e, reach))
       return;
     net_.divide(e, v, distance);
     ++joined_.vertices;
@@ -242,6 +243,14 @@ private:
       joined_.farthest = distance;
       joined_.place = net_.place(v);
     }
+  }
+
+  /// Does the edge stay near the interfaces that were given if it leads through the vertex? Otherwise an interface
+  /// could follow a curve away from them, vertex by vertex.
+  bool stays_near(LocalIndex e, LocalIndex v) const {
+    return interfaces_ == nullptr || !net_.edge(e).is_interface() ||
+           interfaces_->distance(net_.place(v)) <
+               GeneraliseRules::rim_distance * sizing::checked_size(size_, net_.place(v));
   }
 
   /// May the edge lead through the vertex without a touch of other curves?
@@ -281,6 +290,7 @@ private:
   const Boundary& boundary_;
   const sizing::SizeField& size_;
   const std::span<const geometry::CurveKind> kinds_;
+  const geometry::PieceTree* const interfaces_;
   const VertexTree& vertices_;
   EdgeNet net_;
   std::vector<Piece> rim_;

@@ -5,6 +5,7 @@
 
 #include "trime/geometry/boundary.hpp"
 #include "trime/geometry/lattice.hpp"
+#include "trime/geometry/piece_tree.hpp"
 #include "trime/geometry/vec2.hpp"
 #include "trime/sizing/size_field.hpp"
 
@@ -66,8 +67,9 @@ struct SnappedArcs {
 struct ArcRules {
   const sizing::SizeField& size; ///< h
   const geometry::Lattice& lattice;
-  std::span<const geometry::Vec2> corners{};    ///< places that must stay, in lexicographic order
-  std::span<const geometry::CurveKind> kinds{}; ///< as InnerCurves::kinds
+  std::span<const geometry::Vec2> corners{};       ///< places that must stay, in lexicographic order
+  std::span<const geometry::CurveKind> kinds{};    ///< as InnerCurves::kinds
+  const geometry::PieceTree* interfaces = nullptr; ///< from which interfaces stay within rim_distance h; null: any
 };
 
 /// @brief Joins each curve with the interfaces between regions, and with the other curves, that it follows. Where a
@@ -81,7 +83,8 @@ struct ArcRules {
 ///
 /// An edge moves only if the triangle over which it moves holds no other vertex, and if its two parts meet no other
 /// curve. So no crossings arise, and each region keeps its neighbours. Edges whose parts lead through further vertices
-/// do not move farther than the distance in total. InnerArc::lost_area says what the interfaces take from the regions
+/// do not move farther than the distance in total, and interfaces stay near to ArcRules::interfaces, in whichever
+/// number of calls. InnerArc::lost_area says what the interfaces take from the regions
 /// on their left. If nothing is joined, all arcs are as they were. Cost: O(n log n) for n pieces, in each of a few
 /// rounds. Deterministic; uses one thread.
 /// @param boundary the boundary that is meshed, without periods

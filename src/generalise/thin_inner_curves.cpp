@@ -257,11 +257,21 @@ geometry::InnerCurves thin_arcs(const geometry::InnerCurves& curves, const geome
 // Arcs that have merged become simpler, and then further parts may be narrow.
 constexpr int most_rounds = 6;
 
+/// All interfaces between regions.
+geometry::PieceTree interface_tree(const std::vector<InnerArc>& arcs) {
+  geometry::Boundary all;
+  for (const InnerArc& arc : arcs)
+    if (arc.left != arc.right)
+      all.loops.emplace_back().pieces = arc.pieces;
+  return geometry::PieceTree(all);
+}
+
 /// Joins curves with the interfaces and curves that they follow. Returns whether any were joined.
-bool snap(Partition& partition, const ArcRequest& request) {
+/// @param interfaces from which interfaces do not stray
+bool snap(Partition& partition, const ArcRequest& request, const geometry::PieceTree& interfaces) {
   const geometry::InnerCurves& curves = partition.curves;
-  SnappedArcs snapped =
-      snapped_arcs(curves.arcs, partition.boundary, {request.size, request.lattice, request.kept, curves.kinds});
+  SnappedArcs snapped = snapped_arcs(curves.arcs, partition.boundary,
+                                     {request.size, request.lattice, request.kept, curves.kinds, &interfaces});
   partition.curves.arcs = std::move(snapped.arcs);
   partition.joined.add(snapped.joined);
   return snapped.joined.vertices + snapped.joined.loose_ends > 0;
@@ -273,6 +283,7 @@ bool snap(Partition& partition, const ArcRequest& request) {
 Partition without_slivers(Partition given, const ArcRequest& request, std::span<const std::array<int, 2>> pairs,
                           bool& has_absorbed) {
   Partition made = std::move(given);
+  const geometry::PieceTree interfaces = interface_tree(made.curves.arcs);
   for (int round = 0; round < most_rounds; ++round) {
     std::optional<Partition> large = absorb_parts(made.curves, made.boundary, request, pairs, SmallParts::faces);
     if (large) {
@@ -280,7 +291,7 @@ Partition without_slivers(Partition given, const ArcRequest& request, std::span<
       made = std::move(*large);
       has_absorbed = true;
     }
-    const bool has_snapped = snap(made, request);
+    const bool has_snapped = snap(made, request, interfaces);
     std::optional<Partition> zipped = pairs.empty() ? std::nullopt : zip_lines(made, request, pairs);
     if (zipped)
       made = std::move(*zipped);
@@ -334,7 +345,7 @@ Partition simplify_partition(const geometry::InnerCurves& curves, const geometry
       break;
     wide->joined = made.joined;
     made = std::move(*wide);
-    snap(made, request);
+    snap(made, request, interface_tree(made.curves.arcs));
     given = made.curves.arcs;
   }
   cut_wedges(made.curves, wedges, made.boundary, request);

@@ -291,7 +291,8 @@ void Run::warn_of_joined_lines(const fitting::JoinedLines& lines) {
   };
   warn(lines.rim, "the boundary", "have only the name of the boundary");
   warn(lines.lines, "another curve", "have only the name of that curve");
-  warn(lines.interfaces, "an interface", "are those of the interface, with the name of the curve");
+  warn(lines.interfaces, "an interface",
+       "are those of the interface, with the name of the first curve that follows most of it there");
   if (lines.loose_ends > 0)
     run_.log.summary(
         "{} end{} of curves beyond other curves or interfaces {} left out, because {} shorter than 0.1 h; the "

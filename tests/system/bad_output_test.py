@@ -54,7 +54,11 @@ class Rows:
                   extra=[*here, "output.formats=geojson"])
         yield Row(GOOD, USAGE, [clash(r"case\.vtu")], files={"case.vtu": "0.5 0.5\n"},
                   extra=[*here, "output.formats=vtu", "meshing.fixed_points=./case.vtu"])
-        yield Row(GOOD, USAGE, [r"case\.ini is the config, and an output"], extra=["--report=case.ini"], modes=([],))
+        for extra in ([], ["output.interval=0"]):
+            yield Row(GOOD, USAGE, [r"'--report case\.ini' is the config; choose a name"],
+                      extra=["--report=case.ini", *extra], modes=([],))
+        yield Row(GOOD, USAGE, [r"'--report \./case\.h5' is another output of the run"],
+                  extra=["output.directory=.", "--report=./case.h5"], modes=([],))
 
 
 class BadOutput(unittest.TestCase):

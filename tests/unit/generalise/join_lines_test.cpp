@@ -347,6 +347,30 @@ TEST_F(JoinInterfaces, AShortChordOfACircleBelongsToIt) {
   }
 }
 
+TEST_F(JoinInterfaces, ACurveThatLeavesACircleNamesOnlyThePartThatItFollows) {
+  for (int turn = 0; turn < 36; ++turn) { // the start of the circle may lie on either side of its nearest place
+    const double begin = turn * std::numbers::pi / 18 + 0.01;
+    const auto on = [&](double radius, double angle) {
+      return at(0.5 + radius * std::cos(begin + angle), 0.5 + radius * std::sin(begin + angle));
+    };
+    InnerArc whole = circle();
+    whole.closed = false;
+    whole.pieces[0].start = whole.pieces[0].end = on(0.2, 0);
+    whole.pieces[0].start_angle = begin;
+    std::vector<Vec2> path;
+    for (int k = 0; k <= 20; ++k)
+      path.push_back(on(0.2 + 0.005 * h * k, 0.0125 * k));
+    path.push_back(on(0.4, 0.6));
+    const std::optional<Partition> made = joined({arc_of(path, 0, 0, 0), whole});
+    ASSERT_TRUE(made);
+    double named = 0;
+    for (const InnerArc& arc : made->curves.arcs)
+      for (const Piece& piece : arc.pieces)
+        named += piece.circular && piece.part == 0 ? piece.length() : 0;
+    EXPECT_NEAR(named, 0.2 * 0.25, h) << turn;
+  }
+}
+
 TEST_F(JoinInterfaces, OfCurvesOnBothSidesTheFirstOneCounts) {
   InnerArc below = line(0.05, 0.95, 0.5 - 0.1 * h, 0, 0);
   below.left = below.right = 1;
