@@ -7,7 +7,7 @@
 namespace trime::generalise {
 namespace {
 
-// [h] Without the way between the samples, of which the line may lead three times as far.
+// [h] The line may lead so far in addition to three times the way between the samples.
 constexpr double longest_jump = 1.0;
 
 using geometry::InnerArc;

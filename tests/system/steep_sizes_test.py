@@ -124,10 +124,11 @@ class AbsoluteSizes(MeshedSizes):
         config = SQUARE.replace("expression = 1", "expression = 0.02\nscale = absolute")
         with Workspace() as work:
             (work / "size.ini").write_text(config, "ascii")
-            done = run(work / "size.ini", "meshing.points=1000", f"output.directory={work / 'new'}")
-            self.assertEqual(done.returncode, 2)
-            self.assertRegex(done.stderr, "points = 1000 is the limit.* take about [23][0-9]{3} points")
-            self.assertFalse((work / "new").exists())
+            for limit in (200, 1000):
+                done = run(work / "size.ini", f"meshing.points={limit}", f"output.directory={work / str(limit)}")
+                self.assertEqual(done.returncode, 2)
+                self.assertRegex(done.stderr, f"points = {limit} is the limit.* take about [23][0-9]{{3}} points")
+            self.assertFalse((work / "200").exists())
             dry = run(work / "size.ini", "--dry-run", f"output.directory={work}")
             self.assertRegex(dry.stdout, "about (29|30)[0-9]{2} points")
 
