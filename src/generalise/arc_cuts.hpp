@@ -25,7 +25,7 @@ struct Sample {
   bool is_near() const;
 };
 
-/// Returns how far the line beside an arc may lead between its places nearest to two samples, one after the other, if
+/// Returns how far the line next to an arc may lead between its places nearest to two samples, one after the other, if
 /// the arc follows it there. Around a corner, these places are farther apart.
 double longest_way_beside(const Sample& before, const Sample& behind);
 
