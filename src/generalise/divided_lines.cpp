@@ -39,6 +39,11 @@ void DividedLines::add(const Foot& foot) {
     feet.push_back(foot.place);
 }
 
+void DividedLines::bend(const Foot& foot) {
+  add(foot);
+  bent_.insert(foot.at);
+}
+
 const std::vector<Vec2>* DividedLines::feet_on(std::size_t piece) const {
   const auto found = feet_.find(piece);
   return found == feet_.end() ? nullptr : &found->second;
@@ -109,9 +114,17 @@ bool DividedLines::add_divided(std::size_t at, std::vector<Part>& made) const {
     made.back().to = way;
     made.push_back({made.back().arc, way, way});
     made.back().arc.pieces.clear();
+    made.back().arc.lost_area = 0; // all of it belongs to the first part
   };
   std::vector<Vec2> feet = found->second;
   std::ranges::sort(feet, {}, [&](Vec2 p) { return way_on(given, p); });
+  if (is_bent(at)) {
+    Vec2 last = given.start;
+    for (const Vec2 foot : feet)
+      made.back().arc.lost_area += 0.5 * cross(foot - given.start, std::exchange(last, foot) - given.start);
+    made.back().arc.lost_area += 0.5 * cross(given.end - given.start, last - given.start);
+    made.back().arc.is_simplified = true;
+  }
   Piece rest = given;
   for (const Vec2 foot : feet) {
     if (foot != given.start && foot != given.end) {

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,10 @@ public:
 
   /// The line gets a vertex here, and ends or begins there if it is an arc.
   void add(const Foot& foot);
+  /// A straight piece of an interface leads through this place from now on, which need not lie on it. @pre is_bent() is
+  /// false for the piece
+  void bend(const Foot& foot);
+  bool is_bent(std::size_t piece) const { return bent_.contains(piece); }
   /// A curve follows the pieces next to its samples from now on. Where they belong to an interface without a name, this
   /// gets the name and the direction of the curve between two vertices in which other arcs end, if more than half of
   /// its way between them is followed. The first curve counts.
@@ -58,6 +63,7 @@ private:
   const LinePieces& lines_;
   const std::vector<geometry::InnerArc>& arcs_;
   std::map<std::size_t, std::vector<geometry::Vec2>> feet_; // by piece
+  std::set<std::size_t> bent_;                              // pieces that lead through a place next to them
   std::map<std::size_t, std::ptrdiff_t> begins_at_;         // by ring: its first piece in the next round
   std::map<std::size_t, std::vector<Followed>> followed_;   // by interface
 };

@@ -298,17 +298,57 @@ private:
       if (!cuts.is_end(run, side))
         feet[side] = foot_of(cuts.beyond(run, side), all[k]);
       else if (ends_at_interface(cuts, all[k]))
-        feet[side] = foot_of(all[k], all[k]);
-    const bool names_part = cuts.is_end(run, 0) != cuts.is_end(run, 1); // up to a free end
-    const double nearest_feet = (names_part ? vertex_reach : one_foot) * all[run.first].h;
-    if (feet[0] && feet[1] && length(feet[1]->place - feet[0]->place) < nearest_feet) {
+        feet[side] = lines_[all[k].at].piece->circular ? foot_of(all[k], all[k]) : Foot{all[k].place, all[k].at};
+    const bool is_inside = !cuts.is_end(run, 0) && !cuts.is_end(run, 1); // of the arc: otherwise it names a part
+    if (is_inside && length(feet[1]->place - feet[0]->place) < one_foot * all[run.first].h) {
       const auto nearest =
           std::ranges::min_element(all.begin() + static_cast<std::ptrdiff_t>(run.first),
                                    all.begin() + static_cast<std::ptrdiff_t>(run.last) + 1, {}, &Sample::distance);
       feet[0] = feet[1] = foot_of(*nearest, *nearest);
     }
-    return (cuts.is_end(run, 0) || is_free(cuts, run, 0, *feet[0])) &&
-           (cuts.is_end(run, 1) || is_free(cuts, run, 1, *feet[1]));
+    const auto is_possible = [&](std::size_t side) {
+      if (!cuts.is_end(run, side))
+        return is_free(cuts, run, side, *feet[side]);
+      return !feet[side] || lines_[feet[side]->at].piece->circular || may_bend(cuts, run, *feet[side]);
+    };
+    return is_possible(0) && is_possible(1) && may_lie_between(cuts, run, feet);
+  }
+
+  /// If one piece leads through both ends of a run: may it lead from one to the other?
+  bool may_lie_between(const ArcCuts& cuts, const SampleRun& run, const Feet& feet) const {
+    return !cuts.is_end(run, 0) || !cuts.is_end(run, 1) || !feet[0] || !feet[1] || feet[0]->at != feet[1]->at ||
+           lines_[feet[0]->at].piece->circular || !is_blocked(cuts, run, feet[0]->at, {feet[0]->place, feet[1]->place});
+  }
+
+  /// Does a straight edge meet anything but a piece and the run itself?
+  bool is_blocked(const ArcCuts& cuts, const SampleRun& run, std::size_t except, const geometry::Segment& way) const {
+    const OwnPieces own{cuts.arc, cuts.samples[run.first].piece, cuts.samples[run.last].piece};
+    const Piece edge = cuts.edge(way.a, way.b, request_.lattice);
+    return lines_.meets(edge, except, own) ||
+           std::ranges::any_of(edges_, [&](const Piece& other) { return meet(edge, other); });
+  }
+
+  /// May a straight piece of an interface lead through the free end of a run? The triangle over which it moves must not
+  /// touch any other line.
+  bool may_bend(const ArcCuts& cuts, const SampleRun& run, const Foot& foot) const {
+    const Piece& line = *lines_[foot.at].piece;
+    if (foot.place == line.start || foot.place == line.end)
+      return true;
+    const OwnPieces own{cuts.arc, cuts.samples[run.first].piece, cuts.samples[run.last].piece};
+    if (divided_.is_bent(foot.at) || is_blocked(cuts, run, foot.at, {line.start, foot.place}) ||
+        is_blocked(cuts, run, foot.at, {foot.place, line.end}))
+      return false;
+    const double side = cross(line.end - line.start, foot.place - line.start) < 0 ? -1 : 1;
+    const auto is_in_triangle = [&](Vec2 p) {
+      const auto is_left = [&](Vec2 a, Vec2 b) { return side * cross(b - a, p - a) > 0; };
+      return is_left(line.start, line.end) && is_left(line.end, foot.place) && is_left(foot.place, line.start);
+    };
+    return std::ranges::none_of(lines_.within(0.5 * (line.start + line.end), 0.5 * line.length()), [&](std::size_t k) {
+      const LinePieces::Line& other = lines_[k];
+      const bool is_own =
+          other.arc == static_cast<int>(own.arc) && other.number >= own.first && other.number <= own.last;
+      return k != foot.at && !is_own && is_in_triangle(other.piece->start);
+    });
   }
 
   /// May an edge lead from the sample before or behind a run to another line?
@@ -376,7 +416,10 @@ private:
     parts_of_kind(lines_[at->at].arc).add({length, farthest, at->place});
     for (const std::size_t side : {0U, 1U})
       if (const std::optional<Foot>& foot = cuts.feet.back()[side]) {
-        divided_.add(*foot);
+        if (cuts.is_end(run, side) && !lines_[foot->at].piece->circular)
+          divided_.bend(*foot);
+        else
+          divided_.add(*foot);
         if (!cuts.is_end(run, side))
           edges_.push_back(cuts.edge(cuts.beyond(run, side).place, foot->place, request_.lattice));
       }

@@ -16,8 +16,9 @@ namespace trime::generalise {
 /// for more than about h. A curve may lose all of its edges.
 ///
 /// An interface has the name and the direction of the first curve that belongs to it between two vertices in which
-/// arcs end, if more than half of its way between them is followed. It stays where it is, also if it is an arc of a
-/// circle.
+/// arcs end, if more than half of its way between them is followed. Its straight pieces lead through the free ends of
+/// such curves, which stay bit for bit; InnerArc::lost_area counts this. Otherwise it stays where it is, also if it is
+/// an arc of a circle.
 ///
 /// A curve that leaves the line at more than about 20 degrees stays. So do straight lines that meet the line at any
 /// angle, interfaces, curves that are split, weirs, and parts with a place that the user asked for. A node in which

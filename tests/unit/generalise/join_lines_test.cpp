@@ -372,16 +372,34 @@ TEST_F(JoinInterfaces, ACurveThatLeavesACircleNamesOnlyThePartThatItFollows) {
 }
 
 TEST_F(JoinInterfaces, OfCurvesOnBothSidesTheFirstOneCounts) {
-  InnerArc below = line(0.05, 0.95, 0.5 - 0.1 * h, 0, 0);
+  InnerArc below = line(0.2, 0.8, 0.5 - 0.1 * h, 0, 0);
   below.left = below.right = 1;
-  const InnerArc above = line(0.05, 0.95, 0.5 + 0.1 * h, 0, 1);
-  for (const bool is_first : {false, true}) {
-    const std::optional<Partition> made =
-        joined(is_first ? std::vector{below, above, interface()} : std::vector{above, interface(), below});
-    ASSERT_TRUE(made);
-    ASSERT_EQ(made->curves.arcs.size(), 1U);
-    EXPECT_EQ(made->curves.arcs[0].pieces.front().part, 0);
+  const std::optional<Partition> made = joined({below, line(0.1, 0.9, 0.5 + 0.1 * h, 0, 1), interface()});
+  ASSERT_TRUE(made);
+  std::vector<int> names;
+  for (const InnerArc& arc : made->curves.arcs) {
+    EXPECT_NE(arc.left, arc.right);
+    names.push_back(arc.pieces.front().part);
   }
+  EXPECT_EQ(names, (std::vector{-1, 1, 0, 1, -1}));
+}
+
+TEST_F(JoinInterfaces, FreeEndsStayAndTheInterfaceLeadsThroughThem) {
+  InnerArc below = line(0.3, 0.6, 0.5 - 0.1 * h, 0, 0);
+  below.left = below.right = 1;
+  const std::optional<Partition> made = joined({interface(), below});
+  ASSERT_TRUE(made);
+  ASSERT_EQ(made->curves.arcs.size(), 3U);
+  double lost = 0;
+  for (const InnerArc& arc : made->curves.arcs)
+    lost += arc.lost_area;
+  EXPECT_EQ(made->curves.arcs[1].pieces.front().start, below.pieces.front().start);
+  EXPECT_EQ(made->curves.arcs[1].pieces.back().end, below.pieces.back().end);
+  EXPECT_NEAR(lost, -0.1 * h * 0.5 * (0.9 + 0.3), 1e-12); // region 0, on the left, has gained a trapezium
+  const InnerArc wall = arc_of({at(0.4, 0.5 - 0.05 * h), at(0.42, 0.5 - 0.05 * h)}, 1, 1, 1);
+  kinds_ = {{}, {.split = true}}; // which stays where the interface would move
+  const std::optional<Partition> blocked = joined({interface(), wall, below});
+  EXPECT_FALSE(blocked);
 }
 
 } // namespace
