@@ -59,13 +59,13 @@ std::vector<InnerArc> ArcCuts::rest(const Lattice& lattice) const {
   std::size_t from = 0; // the first sample that is left
   std::optional<Foot> foot;
   const auto add = [&](std::size_t last, const std::optional<Foot>& end) {
-    InnerArc& arc = made.emplace_back(*given);
-    arc.closed = false;
-    arc.pieces = part_of(given->pieces, samples[from], samples[last], lattice);
+    InnerArc& left = made.emplace_back(*given);
+    left.closed = false;
+    left.pieces = part_of(given->pieces, samples[from], samples[last], lattice);
     if (foot)
-      arc.pieces.insert(arc.pieces.begin(), edge(foot->place, samples[from].place, lattice));
+      left.pieces.insert(left.pieces.begin(), edge(foot->place, samples[from].place, lattice));
     if (end)
-      arc.pieces.push_back(edge(samples[last].place, end->place, lattice));
+      left.pieces.push_back(edge(samples[last].place, end->place, lattice));
   };
   for (std::size_t k = 0; k < runs.size(); ++k) {
     if (!is_end(runs[k], 0))
