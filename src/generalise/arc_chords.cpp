@@ -48,7 +48,7 @@ public:
     const auto is_near = [&](Vec2 p, double reach, double h) {
       return !tree_.within(p, reach + GeneraliseRules::grown_distance * GeneraliseRules::snap_distance * h).empty();
     };
-    // Of a curve with too many places, those before count.
+    // A curve that has more places than can be visited is compared at its first places only.
     std::ignore = visit_places(std::span(curve.pieces), is_near, [&](std::size_t k, double along) {
       const Vec2 p = curve.pieces[k].point(along);
       const double h = sizing::checked_size(size, p);

@@ -89,9 +89,10 @@ struct GeneraliseRules {
   /// [1] Two curves that meet follow each other if their distance is below this share of the way along them from one to
   /// the other: they then meet at less than about 20 degrees. Not measured.
   static constexpr double narrow_share = 0.35;
-  /// [h] Where a curve comes nearer to the boundary than snap_distance, the part of it that is nearer than this belongs
-  /// to the boundary. Then what is left leaves the boundary with triangles next to it that are hardly smaller. Not
-  /// measured.
+  /// [h] Where a curve comes nearer to the boundary, an interface or another curve than snap_distance, the part of it
+  /// that is nearer than this belongs to that line. Then what is left leaves the line with triangles next to it that
+  /// are hardly smaller. Interfaces that lead through vertices of curves stay as near to the given ones. Measured for
+  /// these on 60 maps: with 0.2, 50 can be meshed; with 0.4, 51; without a limit 54, but interfaces stray in 6.
   static constexpr double rim_distance = 0.4;
   /// [1] Largest sine of the angle between two lines that follow each other: 35 degrees. Not measured.
   static constexpr double parallel = 0.57;

@@ -83,10 +83,10 @@ struct ArcRules {
 ///
 /// An edge moves only if the triangle over which it moves holds no other vertex, and if its two parts meet no other
 /// curve. So no crossings arise, and each region keeps its neighbours. Edges whose parts lead through further vertices
-/// do not move farther than the distance in total, and interfaces stay near to ArcRules::interfaces, in whichever
-/// number of calls. InnerArc::lost_area says what the interfaces take from the regions
-/// on their left. If nothing is joined, all arcs are as they were. Cost: O(n log n) for n pieces, in each of a few
-/// rounds. Deterministic; uses one thread.
+/// do not move farther than the distance in total, and interfaces stay within
+/// GeneraliseRules::rim_distance h of ArcRules::interfaces, however often the function is called. InnerArc::lost_area
+/// says what the interfaces take from the regions on their left. If nothing is joined, all arcs are as they were. Cost:
+/// O(n log n) for n pieces, in each of a few rounds. Deterministic; uses one thread.
 /// @param boundary the boundary that is meshed, without periods
 /// @throws GeometryError if a size is not positive and finite
 SnappedArcs snapped_arcs(const std::vector<geometry::InnerArc>& arcs, const geometry::Boundary& boundary,
