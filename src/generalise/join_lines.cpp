@@ -320,11 +320,14 @@ private:
            lines_[feet[0]->at].piece->circular || !is_blocked(cuts, run, feet[0]->at, {feet[0]->place, feet[1]->place});
   }
 
+  static OwnPieces pieces_along(const ArcCuts& cuts, const SampleRun& run) {
+    return {cuts.arc, cuts.samples[run.first].piece, cuts.samples[run.last].piece};
+  }
+
   /// Does a straight edge meet anything but a piece and the run itself?
   bool is_blocked(const ArcCuts& cuts, const SampleRun& run, std::size_t except, const geometry::Segment& way) const {
-    const OwnPieces own{cuts.arc, cuts.samples[run.first].piece, cuts.samples[run.last].piece};
     const Piece edge = cuts.edge(way.a, way.b, request_.lattice);
-    return lines_.meets(edge, except, own) ||
+    return lines_.meets(edge, except, pieces_along(cuts, run)) ||
            std::ranges::any_of(edges_, [&](const Piece& other) { return meet(edge, other); });
   }
 
@@ -334,7 +337,6 @@ private:
     const Piece& line = *lines_[foot.at].piece;
     if (foot.place == line.start || foot.place == line.end)
       return true;
-    const OwnPieces own{cuts.arc, cuts.samples[run.first].piece, cuts.samples[run.last].piece};
     if (divided_.is_bent(foot.at) || is_blocked(cuts, run, foot.at, {line.start, foot.place}) ||
         is_blocked(cuts, run, foot.at, {foot.place, line.end}))
       return false;
@@ -343,11 +345,9 @@ private:
       const auto is_left = [&](Vec2 a, Vec2 b) { return side * cross(b - a, p - a) > 0; };
       return is_left(line.start, line.end) && is_left(line.end, foot.place) && is_left(foot.place, line.start);
     };
+    const OwnPieces own = pieces_along(cuts, run);
     return std::ranges::none_of(lines_.within(0.5 * (line.start + line.end), 0.5 * line.length()), [&](std::size_t k) {
-      const LinePieces::Line& other = lines_[k];
-      const bool is_own =
-          other.arc == static_cast<int>(own.arc) && other.number >= own.first && other.number <= own.last;
-      return k != foot.at && !is_own && is_in_triangle(other.piece->start);
+      return k != foot.at && !lines_.is_own(k, own) && is_in_triangle(lines_[k].piece->start);
     });
   }
 

@@ -59,12 +59,15 @@ void LinePieces::add(int arc, std::size_t loop, const std::vector<Piece>& pieces
     length_of_.push_back(way);
 }
 
+bool LinePieces::is_own(std::size_t piece, const OwnPieces& own) const {
+  const Line& line = lines_[piece];
+  return line.arc != rim && static_cast<std::size_t>(line.arc) == own.arc && line.number >= own.first &&
+         line.number <= own.last;
+}
+
 bool LinePieces::meets(const Piece& edge, std::size_t except, const OwnPieces& own) const {
   return std::ranges::any_of(within(0.5 * (edge.start + edge.end), 0.5 * edge.length()), [&](std::size_t k) {
-    const Line& other = lines_[k];
-    const bool is_own = other.arc != rim && static_cast<std::size_t>(other.arc) == own.arc &&
-                        other.number >= own.first && other.number <= own.last;
-    return k != except && !is_own && meet(edge, *other.piece);
+    return k != except && !is_own(k, own) && meet(edge, *lines_[k].piece);
   });
 }
 

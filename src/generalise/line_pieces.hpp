@@ -42,6 +42,8 @@ public:
   double length_of(std::size_t arc) const { return length_of_[arc]; }
   /// Returns the numbers of the pieces that are nearer to p than this, ascending.
   std::vector<std::size_t> within(geometry::Vec2 p, double distance) const { return tree_.within(p, distance); }
+  /// Returns whether a piece is one of these.
+  bool is_own(std::size_t piece, const OwnPieces& own) const;
   /// Returns whether a straight piece meets another piece. @param except a piece that does not count @param own further
   /// ones
   bool meets(const geometry::Piece& edge, std::size_t except, const OwnPieces& own) const;

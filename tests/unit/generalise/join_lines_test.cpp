@@ -246,6 +246,12 @@ protected:
     made.closed = true;
     return made;
   }
+  /// A curve in region 1, 0.1 h below the interface.
+  InnerArc below(double from, double to) const {
+    InnerArc made = line(from, to, 0.5 - 0.1 * h, 0, 0);
+    made.left = made.right = 1;
+    return made;
+  }
   /// Region 1 lies below.
   InnerArc interface() const { return arc_of({at(0.05, 0.5), at(0.95, 0.5)}, -1, 0, 1); }
 };
@@ -276,17 +282,16 @@ TEST_F(JoinInterfaces, AnInterfaceHasTheNameOfACurveWhereItFollows) {
 }
 
 TEST_F(JoinInterfaces, ACurveThatEndsBesideAnInterfaceNamesItUpToThere) {
-  InnerArc below = line(0.3, 0.6, 0.5 - 0.1 * h, 0, 0);
-  below.left = below.right = 1;
-  const std::optional<Partition> made = joined({interface(), below});
+  InnerArc curve = below(0.3, 0.6);
+  const std::optional<Partition> made = joined({interface(), curve});
   ASSERT_TRUE(made);
   ASSERT_EQ(made->curves.arcs.size(), 3U);
   const Piece& named = made->curves.arcs[1].pieces.front();
   EXPECT_EQ(named.part, 0);
   EXPECT_NEAR(named.start.x, 0.3, 1e-12);
   EXPECT_NEAR(named.end.x, 0.6, 1e-12);
-  below.left = below.right = 2; // not next to the interface
-  EXPECT_FALSE(joined({interface(), below}));
+  curve.left = curve.right = 2; // not next to the interface
+  EXPECT_FALSE(joined({interface(), curve}));
 }
 
 TEST_F(JoinInterfaces, ARingAroundACircleNamesIt) {
@@ -372,9 +377,7 @@ TEST_F(JoinInterfaces, ACurveThatLeavesACircleNamesOnlyThePartThatItFollows) {
 }
 
 TEST_F(JoinInterfaces, OfCurvesOnBothSidesTheFirstOneCounts) {
-  InnerArc below = line(0.2, 0.8, 0.5 - 0.1 * h, 0, 0);
-  below.left = below.right = 1;
-  const std::optional<Partition> made = joined({below, line(0.1, 0.9, 0.5 + 0.1 * h, 0, 1), interface()});
+  const std::optional<Partition> made = joined({below(0.2, 0.8), line(0.1, 0.9, 0.5 + 0.1 * h, 0, 1), interface()});
   ASSERT_TRUE(made);
   std::vector<int> names;
   for (const InnerArc& arc : made->curves.arcs) {
@@ -385,20 +388,19 @@ TEST_F(JoinInterfaces, OfCurvesOnBothSidesTheFirstOneCounts) {
 }
 
 TEST_F(JoinInterfaces, FreeEndsStayAndTheInterfaceLeadsThroughThem) {
-  InnerArc below = line(0.3, 0.6, 0.5 - 0.1 * h, 0, 0);
-  below.left = below.right = 1;
-  const std::optional<Partition> made = joined({interface(), below});
+  const InnerArc curve = below(0.3, 0.6);
+  const std::optional<Partition> made = joined({interface(), curve});
   ASSERT_TRUE(made);
   ASSERT_EQ(made->curves.arcs.size(), 3U);
   double lost = 0;
   for (const InnerArc& arc : made->curves.arcs)
     lost += arc.lost_area;
-  EXPECT_EQ(made->curves.arcs[1].pieces.front().start, below.pieces.front().start);
-  EXPECT_EQ(made->curves.arcs[1].pieces.back().end, below.pieces.back().end);
+  EXPECT_EQ(made->curves.arcs[1].pieces.front().start, curve.pieces.front().start);
+  EXPECT_EQ(made->curves.arcs[1].pieces.back().end, curve.pieces.back().end);
   EXPECT_NEAR(lost, -0.1 * h * 0.5 * (0.9 + 0.3), 1e-12); // region 0, on the left, has gained a trapezium
   const InnerArc wall = arc_of({at(0.4, 0.5 - 0.05 * h), at(0.42, 0.5 - 0.05 * h)}, 1, 1, 1);
   kinds_ = {{}, {.split = true}}; // which stays where the interface would move
-  const std::optional<Partition> blocked = joined({interface(), wall, below});
+  const std::optional<Partition> blocked = joined({interface(), wall, curve});
   EXPECT_FALSE(blocked);
 }
 
