@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <limits>
 #include <map>
-#include <sstream>
 
 namespace trime::app {
 namespace {
@@ -35,13 +34,7 @@ formats::Names names_of(const Metadata& metadata) {
                        {io::attribute_of<double>(metadata, "period_x"), io::attribute_of<double>(metadata, "period_y")},
                        value_text(metadata, "crs")};
   names.curve_kinds = record::curve_kinds(metadata);
-  for (const io::Attribute& attribute : metadata.attributes)
-    if (const auto* text = std::get_if<std::string>(&attribute.value); text && attribute.name == "open_boundary") {
-      std::istringstream stream(*text);
-      names.open_boundary.emplace();
-      for (std::string name; std::getline(stream, name, ',');)
-        names.open_boundary->push_back(name);
-    }
+  names.open_boundary = record::open_boundary_of(metadata);
   return names;
 }
 

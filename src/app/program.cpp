@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/program.hpp"
 
-#include "app/acceptance_report.hpp"
 #include "app/checkpoint_keeper.hpp"
 #include "app/command_line.hpp"
 #include "app/config.hpp"
@@ -29,6 +28,7 @@
 #include "formats/open_boundary.hpp"
 #include "io/report_file.hpp"
 #include "polygon/polygon.hpp"
+#include "record/acceptance_record.hpp"
 #include "sites/rules.hpp"
 #include "trime/meshing/mesher.hpp"
 #include "trime/record/describe.hpp"
@@ -369,7 +369,7 @@ private:
   BuiltSize size_;
   std::optional<DistanceFormula> depth_;          // of the points, if the config asks for depths
   double points_ = 0;                             // about as many as the mesh will have
-  SizeShares shares_;                             // of several sizes, in the final mesh
+  record::SizeShares shares_;                     // of several sizes, in the final mesh
   std::optional<DepthSummary> depths_;            // of the final mesh, if the config asks for depths
   std::optional<record::CourantSummary> courant_; // of the final mesh, if the config has a time step
   std::vector<acceptance::Verdict> verdicts_;     // on the final mesh, by the rules of models
@@ -436,7 +436,7 @@ void MeshRun::judge(meshing::MeshResult& result) {
   if (job_.options.accept.empty())
     return;
   const auto timing = job_.timers.scope("accept");
-  verdicts_ = judge_mesh(
+  verdicts_ = record::judge_mesh(
       {job_.options.accept, input_.domain().frame().periods(), formats::open_parts(series_options(job_, input_).names)},
       result, job_.comm);
 }
@@ -444,7 +444,7 @@ void MeshRun::judge(meshing::MeshResult& result) {
 /// Summarises the size of the mesh, and how often each of several sizes is the smallest one. Collective.
 SizeSummary MeshRun::summarize(const meshing::MeshResult& result) {
   const auto timing = job_.timers.scope("size field");
-  shares_ = shares_of_sizes(size_, result.mesh, job_.comm);
+  shares_ = record::shares_of_sizes(size_.combined(), result.mesh, job_.comm);
   const std::string shares = text_of(shares_);
   return summarize_size(shares.empty() ? size_.description : fmt::format("{}: {}", size_.description, shares),
                         result.mesh, job_.comm);
@@ -454,13 +454,13 @@ io::Metadata MeshRun::describe(const Provenance& provenance, const meshing::Mesh
                                const SizeSummary& sizes, const Measurements& measured) const {
   io::Metadata metadata = describe_run(provenance, result, sizes, measured);
   if (!shares_.names.empty())
-    metadata.groups.push_back(group_of(shares_));
+    metadata.groups.push_back(record::group_of(shares_));
   if (depths_)
     metadata.groups.push_back(group_of(*depths_));
   if (courant_)
     metadata.groups.push_back(record::group_of(*courant_));
   if (!verdicts_.empty())
-    metadata.groups.push_back(accept_group(verdicts_));
+    metadata.groups.push_back(record::accept_group(verdicts_));
   return metadata;
 }
 
@@ -483,7 +483,7 @@ void MeshRun::print_results(const RunFacts& facts) const {
                        formats::open_boundary_text(series_options(job_, input_).names, facts.part_edges));
   if (courant_)
     job_.log.summary("{}", record::text_of(*courant_));
-  print_verdicts(verdicts_, job_.options.mesh.split_ears, job_.log);
+  record::print_verdicts(verdicts_, job_.options.mesh.split_ears, job_.log);
   print_cells(series_.cells(), job_.log);
   if (!is_complete(facts.result))
     job_.log.warning("{}", incompleteness(facts.result, job_.options.write));
@@ -509,7 +509,8 @@ ExitCode MeshRun::run() {
                                input_.map.crs,
                                input_.domain().curves().names,
                                job_.places.ring_lines(boundary()),
-                               input_.domain().curves().kinds}};
+                               input_.domain().curves().kinds,
+                               job_.options.output.names.open_boundary}};
   meshing::MeshResult result = make_mesh(provenance);
   add_depths(result);
   judge(result);

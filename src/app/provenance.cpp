@@ -5,7 +5,7 @@
 #include "app/run_limit.hpp"
 #include "record/groups.hpp"
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -72,13 +72,6 @@ Attributes joined(std::initializer_list<Attributes> lists) {
   return all;
 }
 
-/// The open boundary, for `convert`: only where the user has chosen it.
-Attributes open_attributes(const Provenance& p) {
-  if (const auto& names = p.options.output.names.open_boundary)
-    return {{"open_boundary", fmt::format("{}", fmt::join(*names, ","))}};
-  return {};
-}
-
 /// The mesh from which the run started, with a hash of its points.
 Attributes start_attributes(const std::optional<OldMesh>& old) {
   if (!old)
@@ -88,8 +81,9 @@ Attributes start_attributes(const std::optional<OldMesh>& old) {
 
 /// Describes what is known before the run.
 Attributes given_attributes(const Provenance& p) {
-  return joined({record::format_attributes(), program_attributes(p.line), run_attributes(p), open_attributes(p),
-                 start_attributes(p.old), record::place_attributes(p.origin), normalization_attributes(p.normalized)});
+  return joined({record::format_attributes(), program_attributes(p.line), run_attributes(p),
+                 record::open_attributes(p.origin), start_attributes(p.old), record::place_attributes(p.origin),
+                 normalization_attributes(p.normalized)});
 }
 
 std::vector<io::Text> texts(const Provenance& p) {

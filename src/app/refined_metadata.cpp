@@ -2,9 +2,9 @@
 #include "app/refined_metadata.hpp"
 
 #include "acceptance/solver_rules.hpp"
-#include "app/acceptance_report.hpp"
 #include "app/provenance.hpp"
 #include "core/thread_loop.hpp"
+#include "record/acceptance_record.hpp"
 #include "record/groups.hpp"
 #include "trime/record/describe.hpp"
 
@@ -113,7 +113,7 @@ MetadataGroup regions_group(MetadataGroup group, const std::vector<refinement::R
 /// Does the check hold a rule of a model, see judge_mesh?
 bool is_rule(const mesh::Check& check) {
   return std::ranges::any_of(acceptance::solver_rules(), [&](const acceptance::SolverRule& rule) {
-    return rule.refuses && check.name == check_name(rule);
+    return rule.refuses && check.name == record::check_name(rule);
   });
 }
 

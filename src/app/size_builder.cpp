@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/size_builder.hpp"
 
-#include "comm/agree.hpp"
-#include "core/thread_loop.hpp"
 #include "sizing/boundary_distance.hpp"
 #include "sizing/distance_size.hpp"
 #include "sizing/region_size.hpp"
@@ -12,15 +10,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <iterator>
-#include <numeric>
 #include <utility>
 
 namespace trime::app {
 namespace {
-
-constexpr int points_at_once = 1024; // by one thread
 
 BuiltSize automatic_size(const RunOptions& options, const geometry::Domain& domain, const comm::Communicator& comm) {
   const geometry::Boundary& boundary = domain.boundary();
@@ -188,43 +181,6 @@ void lower_in_regions(const RunOptions& options, const geometry::Domain& domain,
 }
 
 } // namespace
-
-SizeShares shares_of_sizes(const BuiltSize& size, const mesh::DistributedMesh& mesh, const comm::Communicator& comm) {
-  if (size.minimum == nullptr)
-    return {};
-  std::vector<std::string> names = size.names;
-  if (!size.lowered_by.empty())
-    names.push_back(size.lowered_by);
-  std::vector<std::int64_t> points(names.size(), 0);
-  comm::run_agreed(comm, [&] {
-    PerThread<std::vector<std::int64_t>> counts(points);
-    thread_loop(std::ssize(mesh.points), points_at_once, [&](std::ptrdiff_t k, int thread) {
-      const geometry::Vec2 p = mesh.points[static_cast<std::size_t>(k)];
-      const bool is_lowered = !size.lowered_by.empty() && size.field->size(p) < size.minimum->size(p);
-      ++counts[thread][is_lowered ? size.names.size() : size.minimum->smallest_field(p)];
-    });
-    for (const std::vector<std::int64_t>& its : counts)
-      std::ranges::transform(points, its, points.begin(), std::plus<>());
-  });
-  comm.sum(points);
-  return {std::move(names), std::move(points)};
-}
-
-std::string text_of(const SizeShares& shares) {
-  if (shares.names.empty())
-    return {};
-  const std::int64_t all = std::accumulate(shares.points.begin(), shares.points.end(), std::int64_t{0});
-  std::string text;
-  for (std::size_t k = 0; k < shares.names.size(); ++k)
-    text +=
-        fmt::format("{}[{}] {:.3g} %", k == 0 ? "" : ", ", shares.names[k],
-                    100 * static_cast<double>(shares.points[k]) / static_cast<double>(std::max<std::int64_t>(1, all)));
-  return text + " of the points";
-}
-
-io::MetadataGroup group_of(const SizeShares& shares) {
-  return {"sizes", {}, {{"name", shares.names}, {"points", shares.points}}};
-}
 
 DistanceFormula build_formula(const FormulaText& formula, const geometry::Domain& domain,
                               const std::vector<BuiltField>& fields) {

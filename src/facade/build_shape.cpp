@@ -2,17 +2,12 @@
 #include "facade/build_shape.hpp"
 
 #include "comm/agree.hpp"
-#include "core/distance_formula.hpp"
-#include "sizing/boundary_distance.hpp"
-#include "sizing/distance_size.hpp"
-#include "sizing/region_size.hpp"
 #include "trime/contours/contour.hpp"
 #include "trime/core/error.hpp"
 #include "trime/geometry/lattice.hpp"
 #include "trime/shape/part.hpp"
 #include "trime/shape/region_shape.hpp"
 #include "trime/shape/traced_part.hpp"
-#include "trime/sizing/automatic_size.hpp"
 #include "trime/tracing/shape.hpp"
 
 #include <algorithm>
@@ -205,110 +200,6 @@ geometry::Domain build_domain(const Shape& shape, const MeshOptions& options, co
   for (const std::string& warning : warnings)
     log.warning("{}", warning);
   return std::move(*domain);
-}
-
-Size uniform_size() {
-  return {};
-}
-
-Size formula_size(const std::string& text) {
-  Size size;
-  size.formula_ = text;
-  return size;
-}
-
-Size automatic_size(double gradation) {
-  Size size;
-  size.gradation_ = gradation;
-  size.is_automatic_ = true;
-  return size;
-}
-
-namespace {
-
-/// A size together with the one that it bounds in regions.
-class OwnedRegionSize final : public sizing::SizeField {
-public:
-  OwnedRegionSize(std::shared_ptr<const sizing::SizeField> field, const geometry::Domain& domain,
-                  std::vector<sizing::RegionBound> bounds)
-      : field_(std::move(field)), bounded_(*field_, domain, std::move(bounds)) {}
-  double size(geometry::Vec2 p) const override { return bounded_.size(p); }
-  void sizes(std::span<const geometry::Vec2> places, std::span<double> values) const override {
-    bounded_.sizes(places, values);
-  }
-  bool prefers_blocks() const override { return bounded_.prefers_blocks(); }
-  bool jumps() const override { return true; }
-  std::size_t memory_bytes() const override { return bounded_.memory_bytes(); }
-
-private:
-  std::shared_ptr<const sizing::SizeField> field_;
-  sizing::RegionSize bounded_;
-};
-
-/// A function of the user as the lower level asks it.
-class CalledSize final : public sizing::SizeField {
-public:
-  explicit CalledSize(const std::function<double(geometry::Vec2)>& function) : function_(function) {}
-  double size(geometry::Vec2 p) const override { return called(function_, p, "the size function"); }
-
-private:
-  const std::function<double(geometry::Vec2)>& function_;
-};
-
-/// A formula of a config, together with the size that it gives.
-class FormulaSize final : public sizing::SizeField {
-public:
-  FormulaSize(const std::string& text, const geometry::Domain& domain)
-      : formula_(text, "the formula of the size", sizing::distances_in(domain)), size_(formula_, box_of(domain)) {}
-  double size(geometry::Vec2 p) const override { return size_.size(p); }
-
-private:
-  static Box box_of(const geometry::Domain& domain) {
-    return domain.frame().periods().any() ? domain.frame().container() : domain.boundary().bounding_box();
-  }
-
-  DistanceFormula formula_;
-  sizing::DistanceSize size_;
-};
-
-/// The size before it is bounded in regions. Collective.
-std::shared_ptr<const sizing::SizeField> common_size(const Size& size, const geometry::Domain& domain,
-                                                     const meshing::MeshOptions& options,
-                                                     const comm::Communicator& comm) {
-  if (size.field())
-    return size.field();
-  if (size.function())
-    return std::make_shared<const CalledSize>(size.function());
-  if (!size.formula().empty())
-    return std::make_shared<const FormulaSize>(size.formula(), domain);
-  if (!size.is_automatic())
-    return std::make_shared<const sizing::UniformSize>(options.absolute_sizes ? options.max_size.value_or(1) : 1.0);
-  const geometry::Boundary& boundary = domain.boundary();
-  sizing::AutomaticSizeOptions automatic;
-  automatic.gradation = size.gradation();
-  automatic.feature_floor = options.absolute_sizes
-                                ? options.min_size.value_or(0)
-                                : sizing::feature_floor(options.points, options.edge_length, boundary.area);
-  automatic.container = domain.frame().container();
-  automatic.period_x = boundary.periods.x;
-  automatic.period_y = boundary.periods.y;
-  return sizing::make_automatic_size(comm, boundary, automatic);
-}
-
-} // namespace
-
-std::shared_ptr<const sizing::SizeField> build_size(const Size& size, const geometry::Domain& domain,
-                                                    const std::vector<Region>& regions,
-                                                    const meshing::MeshOptions& options,
-                                                    const comm::Communicator& comm) {
-  std::vector<sizing::RegionBound> bounds;
-  for (std::size_t k = 0; k < regions.size(); ++k)
-    if (regions[k].size)
-      bounds.push_back({static_cast<int>(k) + 1, *regions[k].size});
-  std::shared_ptr<const sizing::SizeField> common = common_size(size, domain, options, comm);
-  if (bounds.empty())
-    return common;
-  return std::make_shared<const OwnedRegionSize>(std::move(common), domain, std::move(bounds));
 }
 
 } // namespace trime

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes the boundary and the size field, on every rank, from the shape and the size that a program gave. A Shape is an
-// expression of parts.
+// Makes the boundary, on every rank, from the shape that a program gave. A Shape is an expression of parts.
 #pragma once
 
 #include "trime/comm/communicator.hpp"
@@ -8,11 +7,8 @@
 #include "trime/core/log.hpp"
 #include "trime/facade/mesh.hpp"
 #include "trime/facade/shape.hpp"
-#include "trime/facade/size.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/geometry/vec2.hpp"
-#include "trime/meshing/options.hpp"
-#include "trime/sizing/size_field.hpp"
 
 #include <exception>
 #include <functional>
@@ -73,14 +69,5 @@ inline double called(const std::function<double(geometry::Vec2)>& function, geom
 /// @throws ConfigError, GeometryError, FileError on all ranks together
 /// @note Collective.
 geometry::Domain build_domain(const Shape& shape, const MeshOptions& options, const comm::Communicator& comm, Log& log);
-
-/// Makes the size field, bounded in those regions that have a size.
-/// @pre `size` outlives the field
-/// @throws ConfigError on all ranks together
-/// @note Collective.
-std::shared_ptr<const sizing::SizeField> build_size(const Size& size, const geometry::Domain& domain,
-                                                    const std::vector<Region>& regions,
-                                                    const meshing::MeshOptions& options,
-                                                    const comm::Communicator& comm);
 
 } // namespace trime

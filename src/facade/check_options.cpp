@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "facade/check_options.hpp"
 
+#include "acceptance/solver_rules.hpp"
 #include "comm/agree.hpp"
+#include "core/quoted.hpp"
 #include "trime/core/error.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <set>
 
 namespace trime {
 namespace {
@@ -34,6 +39,9 @@ std::vector<std::string> items_of(const Shape& shape, const MeshOptions& options
       "container " + text_of(options.container),
       fmt::format("periodic_x, periodic_y {}, {}", options.periodic_x, options.periodic_y),
       fmt::format("max_sweeps {}", options.max_sweeps),
+      fmt::format("split_ears {}, accept '{}'", options.split_ears, fmt::join(options.accept, " ")),
+      options.open_boundary ? fmt::format("open_boundary '{}'", fmt::join(*options.open_boundary, ", "))
+                            : "open_boundary none",
       fmt::format("worst_alpha {}", options.worst_alpha),
       fmt::format("seed {}", options.seed),
       options.start ? fmt::format("start mesh {:016x}", options.start->hash()) : "start none",
@@ -115,17 +123,61 @@ void check_absolute(const Size& size, const MeshOptions& options) {
   if (size.is_automatic() && !options.min_size)
     throw ConfigError("MeshOptions::min_size: expected a length, because absolute_sizes is set and the size is "
                       "automatic: features of the boundary that are smaller are not resolved");
-  if (!size.is_automatic() && !size.function() && !size.field() && size.formula().empty() && !options.max_size)
+  for (const NamedSize& named : size.parts())
+    if (named.size.is_automatic() && !options.min_size)
+      throw ConfigError(fmt::format("MeshOptions::min_size: expected a length, because absolute_sizes is set and the "
+                                    "size '{}' is automatic",
+                                    named.name));
+  if (!size.is_automatic() && size.parts().empty() && !size.function() && !size.field() && size.formula().empty() &&
+      !options.max_size)
     throw ConfigError("MeshOptions::max_size: expected the length of the edges, because absolute_sizes is set and the "
                       "size is uniform");
 }
 
+bool is_uniform(const Size& size) {
+  return !size.is_automatic() && !size.function() && !size.field() && size.formula().empty() && size.parts().empty();
+}
+
+/// Several sizes need names, and each of them must be able to be the smallest one somewhere.
+void check_parts(const Size& size) {
+  std::set<std::string> names;
+  for (const auto& [name, part] : size.parts()) {
+    const bool is_plain = std::ranges::all_of(
+        name, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-'; });
+    if (name.empty() || !is_plain)
+      throw ConfigError(fmt::format("the name '{}' of a size: expected letters, digits, '_' and '-'", shown(name)));
+    if (!names.insert(name).second)
+      throw ConfigError(fmt::format("two sizes are called '{}': expected a name for each", name));
+    if (is_uniform(part))
+      throw ConfigError(fmt::format("the size '{}' is uniform: expected a size that varies, because several sizes are "
+                                    "combined by their minimum; MeshOptions::max_size bounds all of them",
+                                    name));
+    if (!part.parts().empty())
+      throw ConfigError(
+          fmt::format("the size '{}' is the smallest one of others: expected these in the list itself", name));
+  }
+}
+
 } // namespace
+
+std::vector<acceptance::Solver> models_of(const std::vector<std::string>& words) {
+  std::vector<acceptance::Solver> models;
+  for (const std::string& word : words) {
+    const std::optional<acceptance::Solver> model = acceptance::solver_of_word(word);
+    if (!model)
+      throw ConfigError(fmt::format("MeshOptions::accept: expected names of models among {}, found '{}'",
+                                    acceptance::solver_words(), shown(word)));
+    models.push_back(*model);
+  }
+  return models;
+}
 
 void check_options(const Shape& shape, const Size& size, const MeshOptions& options, const comm::Communicator& comm) {
   check_same(shape, options, comm);
   check_values(options); // the same on all ranks
+  check_parts(size);
   check_absolute(size, options);
+  models_of(options.accept);
   if (options.start && options.start->communicator().size() != comm.size())
     throw ConfigError(fmt::format("MeshOptions::start: expected a mesh on the {} ranks of the communicator, found one "
                                   "on {}; write it to a file, and read it with this communicator",

@@ -4,13 +4,16 @@
 #include "comm/agree.hpp"
 #include "core/quoted.hpp"
 #include "facade/build_shape.hpp"
+#include "facade/build_size.hpp"
 #include "facade/check_options.hpp"
 #include "facade/names.hpp"
 #include "formats/cell_arrays.hpp"
+#include "formats/open_boundary.hpp"
 #include "formats/output_files.hpp"
 #include "io/extra_arrays.hpp"
+#include "record/acceptance_record.hpp"
 #include "record/groups.hpp"
-#include "sizing/rules.hpp"
+#include "record/size_shares.hpp"
 #include "trime/comm/from_mpi.hpp"
 #include "trime/core/error.hpp"
 #include "trime/core/log.hpp"
@@ -124,12 +127,8 @@ void check_running() {
 std::optional<double> growth_of(const MeshOptions& given, const Size& size) {
   if (given.gradation)
     return std::isfinite(*given.gradation) ? given.gradation : std::nullopt;
-  if (size.is_automatic())
-    return size.gradation() > 0 ? std::optional(size.gradation()) : std::nullopt;
-  const auto is_sized = [](const Region& region) { return region.size.has_value(); };
-  return size.function() || size.field() || !size.formula().empty() || std::ranges::any_of(given.regions, is_sized)
-             ? std::optional(sizing::SizingRules::function_gradation)
-             : std::nullopt;
+  return default_growth(
+      size, std::ranges::any_of(given.regions, [](const Region& region) { return region.size.has_value(); }));
 }
 
 meshing::MeshOptions lower_options(const MeshOptions& given, const Size& size) {
@@ -144,17 +143,9 @@ meshing::MeshOptions lower_options(const MeshOptions& given, const Size& size) {
   options.features = given.features;
   options.max_sweeps = given.max_sweeps;
   options.worst_alpha = given.worst_alpha;
+  options.split_ears = given.split_ears;
   options.seed = given.seed;
   return options;
-}
-
-/// Says in the file what the size was.
-std::string text_of(const Size& size) {
-  if (size.is_automatic())
-    return fmt::format("automatic, gradation {:.6g}", size.gradation());
-  if (!size.formula().empty())
-    return "expression " + size.formula();
-  return size.function() || size.field() ? "a function of the program" : "uniform";
 }
 
 geometry::Regions regions_of(const io::Metadata& metadata) {
@@ -184,6 +175,7 @@ record::Origin origin_of(const io::Metadata& metadata) {
   origin.crs = io::attribute_of<std::string>(metadata, "crs");
   origin.curve_names = io::curve_names(metadata);
   origin.curve_kinds = record::curve_kinds(metadata);
+  origin.open_boundary = record::open_boundary_of(metadata);
   return origin;
 }
 
@@ -231,9 +223,39 @@ mesh::QualitySummary quality_of(const io::Metadata& metadata) {
 formats::Names names_of(const record::Origin& origin) {
   formats::Names names{origin.part_names, origin.regions.names, origin.curve_names, {}, origin.period, origin.crs};
   names.curve_kinds = origin.curve_kinds;
+  names.open_boundary = origin.open_boundary;
   for (std::size_t pair = 0; pair < origin.regions.pairs.size(); ++pair)
     names.interfaces.push_back(origin.regions.pair_name(pair));
   return names;
+}
+
+/// The names and markers of a mesh that is made of this shape.
+record::Origin origin_of(const Shape& shape, const geometry::Domain& domain, const MeshOptions& options) {
+  const geometry::Boundary& boundary = domain.boundary();
+  return {boundary.part_names,
+          domain.part_markers(),
+          record::named(domain.regions(), shape.text()),
+          {boundary.periods.x, boundary.periods.y},
+          {},
+          domain.curves().names,
+          {},
+          domain.curves().kinds,
+          options.open_boundary};
+}
+
+/// The size in words, with the share of each of several sizes.
+std::string described(const Size& size, const record::SizeShares& shares) {
+  const std::string share_text = record::text_of(shares);
+  return share_text.empty() ? text_of(size) : fmt::format("{}: {}", text_of(size), share_text);
+}
+
+/// Adds the groups that the program adds, in its order.
+void add_groups(const record::SizeShares& shares, const std::vector<acceptance::Verdict>& verdicts,
+                io::Metadata& metadata) {
+  if (!shares.names.empty())
+    metadata.groups.push_back(record::group_of(shares));
+  if (!verdicts.empty())
+    metadata.groups.push_back(record::accept_group(verdicts));
 }
 
 constexpr const char* how_to_replace = "set WriteOptions::overwrite to replace it, or choose another path";
@@ -293,6 +315,12 @@ const mesh::Checks& Mesh::checks() const {
 }
 const mesh::QualitySummary& Mesh::quality() const {
   return result().quality;
+}
+std::vector<Verdict> Mesh::verdicts() const {
+  return record::verdicts_of(implementation_->metadata);
+}
+std::vector<SizeShare> Mesh::size_shares() const {
+  return record::shares_of(implementation_->metadata);
 }
 std::uint64_t Mesh::hash() const {
   return result().mesh.hash;
@@ -376,25 +404,23 @@ Mesh make_mesh(MPI_Comm handle, const Shape& shape, const Size& size, const Mesh
   Log quiet(LogLevel::warning, comm->is_root() && options.log == nullptr, stderr);
   Log& log = options.log != nullptr ? *options.log : quiet;
   const geometry::Domain domain = build_domain(shape, options, *comm, log);
-  const geometry::Boundary& boundary = domain.boundary();
-  const meshing::MeshOptions lower = lower_options(options, size);
-  const std::shared_ptr<const sizing::SizeField> field = build_size(size, domain, options.regions, lower, *comm);
-  TimerTable timers;
   auto made = std::make_unique<Mesh::Implementation>();
   made->communicator = comm;
-  meshing::Mesher mesher(*comm, domain, *field, lower, log, timers);
+  made->origin = origin_of(shape, domain, options);
+  const std::vector<bool> open = formats::open_parts(names_of(made->origin)); // refuses unknown names, on all ranks
+  const meshing::MeshOptions lower = lower_options(options, size);
+  const BuiltSize built = build_size(size, domain, options.regions, lower, *comm);
+  TimerTable timers;
+  meshing::Mesher mesher(*comm, domain, *built.field, lower, log, timers);
   if (options.start)
     mesher.start_from({options.start->result().mesh.points, options.start->periods()});
   made->result = mesher.run();
-  made->origin = {boundary.part_names,
-                  domain.part_markers(),
-                  record::named(domain.regions(), shape.text()),
-                  {boundary.periods.x, boundary.periods.y},
-                  {},
-                  domain.curves().names,
-                  {},
-                  domain.curves().kinds};
-  made->metadata = record::describe(made->result, made->origin, text_of(size), *comm);
+  const std::vector<acceptance::Verdict> verdicts =
+      record::judge_mesh({models_of(options.accept), domain.frame().periods(), open}, made->result, *comm);
+  record::print_verdicts(verdicts, options.split_ears, log);
+  const record::SizeShares shares = record::shares_of_sizes(built.combined(), made->result.mesh, *comm);
+  made->metadata = record::describe(made->result, made->origin, described(size, shares), *comm);
+  add_groups(shares, verdicts, made->metadata);
   return Mesh(std::move(made));
 }
 
@@ -407,7 +433,7 @@ Mesh read_mesh(MPI_Comm handle, const std::string& path) {
   read->communicator = std::make_shared<const comm::Communicator>(comm::duplicate_of(handle));
   read->metadata = io::read_metadata(path,
                                      {"history", "quality", "checks", "worst_triangles", "tags", "sharp_corners",
-                                      "rings", "curves", "interfaces", "regions", "normalization"},
+                                      "rings", "curves", "interfaces", "regions", "normalization", "sizes", "accept"},
                                      *read->communicator);
   read->origin = origin_of(read->metadata);
   read->result.checks = record::checks_of(read->metadata);

@@ -42,6 +42,14 @@ py::object exception_of(const Error& error) {
   throw py::error_already_set();
 }
 
+/// The exception of the function that has failed on this rank, or None.
+py::object failure_of(const GivenSize& given) {
+  for (const std::shared_ptr<const PythonSize>& function : given.functions)
+    if (py::object failure = function->failure(); !failure.is_none())
+      return failure;
+  return py::none();
+}
+
 std::unique_ptr<Mesh> make(const py::object& comm, const Shape& shape, const py::object& size,
                            const py::dict& keywords) {
   const MPI_Comm handle = communicator_of(comm);
@@ -54,7 +62,7 @@ std::unique_ptr<Mesh> make(const py::object& comm, const Shape& shape, const py:
   } catch (const Error& failed) {
     error = failed;
   }
-  raise(*error, given.function ? given.function->failure() : py::none());
+  raise(*error, failure_of(given));
 }
 
 /// Lets errors of the library become exceptions of the package.
@@ -75,6 +83,23 @@ py::list checks_of(const Mesh& mesh) {
   for (const mesh::Check& check : mesh.checks())
     checks.append(py::make_tuple(check.name, check.passed, check.expected, check.found, check.meaning));
   return checks;
+}
+
+py::list verdicts_of(const Mesh& mesh) {
+  py::list verdicts;
+  for (const Verdict& v : mesh.verdicts()) {
+    const py::object place = v.place ? py::object(py::make_tuple(v.place->x, v.place->y)) : py::none();
+    verdicts.append(
+        py::make_tuple(v.solver, v.rule, v.is_least, v.limit, v.worst, v.broken, v.measured, v.refuses, place));
+  }
+  return verdicts;
+}
+
+py::dict size_shares_of(const Mesh& mesh) {
+  py::dict shares;
+  for (const SizeShare& share : mesh.size_shares())
+    shares[py::str(share.name)] = share.points;
+  return shares;
 }
 
 py::dict quality_of(const Mesh& mesh) {
@@ -147,6 +172,8 @@ void bind_mesh(py::module_& module) {
                              [](const Mesh& mesh) { return py::make_tuple(mesh.periods().x, mesh.periods().y); })
       .def_property_readonly("checks", checks_of)
       .def_property_readonly("quality", quality_of)
+      .def_property_readonly("verdicts", verdicts_of)
+      .def_property_readonly("size_shares", size_shares_of)
       .def_property_readonly("sweeps", &Mesh::sweeps)
       .def_property_readonly("names", names_of)
       .def("write", write)

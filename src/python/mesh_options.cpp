@@ -42,6 +42,13 @@ Method method_of(const std::string& name) {
   return found->second;
 }
 
+/// A list of texts, or a single one.
+std::vector<std::string> words_of(py::handle value) {
+  if (py::isinstance<py::str>(value))
+    return {value.cast<std::string>()};
+  return value.cast<std::vector<std::string>>();
+}
+
 void set_container(MeshOptions& options, py::handle value) {
   const auto [lower, upper] = value.cast<std::pair<Pair, Pair>>();
   options.container = Box{{lower.first, lower.second}, {upper.first, upper.second}};
@@ -72,6 +79,9 @@ std::map<std::string, Setter> setters() {
       {"refine_narrow", feature<bool>(&boundary::FeatureOptions::refine_narrow)},
       {"max_loss", feature<double>(&boundary::FeatureOptions::max_loss)},
       {"max_sweeps", setter<int>(&MeshOptions::max_sweeps)},
+      {"split_ears", setter<bool>(&MeshOptions::split_ears)},
+      {"accept", [](MeshOptions& options, py::handle value) { options.accept = words_of(value); }},
+      {"open_boundary", [](MeshOptions& options, py::handle value) { options.open_boundary = words_of(value); }},
       {"worst_alpha", setter<double>(&MeshOptions::worst_alpha)},
       {"start", [](MeshOptions& options, py::handle value) { options.start = value.cast<const Mesh*>(); }},
       {"seed", setter<std::uint64_t>(&MeshOptions::seed)},
@@ -80,6 +90,23 @@ std::map<std::string, Setter> setters() {
 
 std::string type_of(py::handle value) {
   return py::str(py::type::of(value).attr("__name__"));
+}
+
+GivenSize smallest_of(const py::dict& sizes) {
+  std::vector<NamedSize> named;
+  GivenSize given{sizes::uniform(), {}};
+  for (const auto& [name, value] : sizes) {
+    if (!py::isinstance<py::str>(name))
+      throw py::type_error(
+          fmt::format("size: expected a dict of sizes by name, found a name of type {}", type_of(name)));
+    GivenSize one = size_of(py::reinterpret_borrow<py::object>(value));
+    named.push_back({name.cast<std::string>(), std::move(one.size)});
+    given.functions.insert(given.functions.end(), one.functions.begin(), one.functions.end());
+  }
+  if (named.empty())
+    throw py::type_error("size: expected at least one size in the dict, found none");
+  given.size = sizes::smallest(std::move(named));
+  return given;
 }
 
 } // namespace
@@ -110,18 +137,20 @@ MeshOptions options_of(const py::dict& keywords) {
 
 GivenSize size_of(const py::object& size) {
   if (size.is_none())
-    return {sizes::uniform(), nullptr};
+    return {sizes::uniform(), {}};
   if (py::isinstance<py::str>(size))
-    return {sizes::formula(size.cast<std::string>()), nullptr};
+    return {sizes::formula(size.cast<std::string>()), {}};
   if (py::isinstance<py::tuple>(size))
-    return {sizes::automatic(std::get<0>(size.cast<std::tuple<double>>())), nullptr};
+    return {sizes::automatic(std::get<0>(size.cast<std::tuple<double>>())), {}};
+  if (py::isinstance<py::dict>(size))
+    return smallest_of(size.cast<py::dict>());
   if (py::isinstance<py::function>(size) || PyCallable_Check(size.ptr()) != 0) {
     const auto function = std::make_shared<const PythonSize>(size);
-    return {Size(std::shared_ptr<const sizing::SizeField>(function)), function};
+    return {Size(std::shared_ptr<const sizing::SizeField>(function)), {function}};
   }
   throw py::type_error(
       fmt::format("size: expected None, a formula such as '1 + 3*x', a function of an array of places, "
-                  "or automatic(), found an object of type {}",
+                  "automatic(), or a dict of such sizes by name, found an object of type {}",
                   type_of(size)));
 }
 

@@ -8,6 +8,7 @@
 #include <pybind11/pybind11.h>
 
 #include <memory>
+#include <vector>
 
 namespace trime::python {
 
@@ -19,11 +20,11 @@ MeshOptions options_of(const pybind11::dict& keywords);
 /// A size as Python gives it.
 struct GivenSize {
   Size size;
-  std::shared_ptr<const PythonSize> function; ///< null for a size that does not call Python
+  std::vector<std::shared_ptr<const PythonSize>> functions; ///< functions of Python that the size calls
 };
 
-/// @param size None, a formula as text, a function of an (n, 2) array, or the gradation of the automatic size in a
-/// tuple
+/// @param size None, a formula as text, a function of an (n, 2) array, the gradation of the automatic size in a tuple,
+/// or a dict of such sizes by name, whose smallest one counts at each place
 /// @throws pybind11::type_error for anything else
 GivenSize size_of(const pybind11::object& size);
 

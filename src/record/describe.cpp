@@ -6,13 +6,14 @@
 #include "trime/meshing/mesher.hpp"
 #include "trime/shape/region_shape.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <ctime>
 #include <limits>
 #include <numeric>
 #include <span>
+#include <sstream>
 
 namespace trime::record {
 namespace {
@@ -95,6 +96,24 @@ Attributes place_attributes(const Origin& origin) {
   return {{"crs", origin.crs},           // reference system of the coordinates; empty: none is known
           {"period_x", origin.period.x}, // 0: not periodic; else images of a triangle's corners count
           {"period_y", origin.period.y}};
+}
+
+Attributes open_attributes(const Origin& origin) {
+  if (!origin.open_boundary)
+    return {};
+  return {{"open_boundary", fmt::format("{}", fmt::join(*origin.open_boundary, ","))}};
+}
+
+std::optional<std::vector<std::string>> open_boundary_of(const io::Metadata& metadata) {
+  const auto found = std::ranges::find(metadata.attributes, "open_boundary", &io::Attribute::name);
+  const auto* text = found == metadata.attributes.end() ? nullptr : std::get_if<std::string>(&found->value);
+  if (text == nullptr)
+    return std::nullopt;
+  std::vector<std::string> names;
+  std::istringstream stream(*text);
+  for (std::string name; std::getline(stream, name, ',');)
+    names.push_back(name);
+  return names;
 }
 
 Attributes mesh_attributes(const mesh::DistributedMesh& mesh, int retriangulation) {
@@ -328,7 +347,7 @@ io::Metadata describe(const meshing::MeshResult& result, const Origin& origin, c
                         {"largest_size", sizes.largest},
                         {"complete", std::int64_t{is_complete(result)}}};
   return with_regions(
-      {joined({format_attributes(), made, place_attributes(origin),
+      {joined({format_attributes(), made, open_attributes(origin), place_attributes(origin),
                mesh_attributes(result.mesh, result.triangulations + 1), result_attributes(result)}),
        {},
        {history_group(result.history), quality_group(result.quality), checks_group(result.checks),

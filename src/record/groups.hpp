@@ -12,6 +12,7 @@
 #include "trime/sweep/sweep_history.hpp"
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,6 +34,10 @@ io::Column column(const std::string& name, const std::vector<Element>& elements,
 Attributes format_attributes();
 /// Returns the attributes with the reference system of the coordinates and the periods.
 Attributes place_attributes(const Origin& origin);
+/// Returns the attribute with the names of the open boundary; none if the user has not chosen it.
+Attributes open_attributes(const Origin& origin);
+/// Returns the names of the open boundary in the metadata of a file, see open_attributes().
+std::optional<std::vector<std::string>> open_boundary_of(const io::Metadata& metadata);
 /// Returns the attributes with counts and hash of the mesh.
 /// @param retriangulation number of the triangulation, from 1
 Attributes mesh_attributes(const mesh::DistributedMesh& mesh, int retriangulation);

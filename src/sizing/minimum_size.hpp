@@ -5,6 +5,7 @@
 #include "trime/sizing/size_field.hpp"
 
 #include <cstddef>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -17,8 +18,14 @@ public:
   explicit MinimumSize(std::vector<const SizeField*> fields) : fields_(std::move(fields)) {}
   /// Returns the smallest size at p, or the first invalid one, so that the caller notices it.
   double size(geometry::Vec2 p) const override { return at(p).size; }
+  void sizes(std::span<const geometry::Vec2> places, std::span<double> values) const override;
+  bool prefers_blocks() const override;
   /// Returns the index of the field that is the smallest one at p; the first of several equal ones.
   std::size_t smallest_field(geometry::Vec2 p) const { return at(p).field; }
+  /// @brief Sets fields[k] to smallest_field(places[k]), and values[k] to the size of that field.
+  /// @pre the three lists are equally long
+  void smallest_fields(std::span<const geometry::Vec2> places, std::span<std::size_t> fields,
+                       std::span<double> values) const;
   bool jumps() const override;
   std::size_t memory_bytes() const override;
 

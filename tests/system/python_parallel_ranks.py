@@ -168,6 +168,13 @@ def main(directory):
     moved = [parallel.mesh(comm, MOVED, points=2000, start=old) for old in (plain, directory / f"plain{comm.size}.h5")]
     found["start"] = [mesh.hash for mesh in moved]
     found["start_alpha"] = moved[0].quality["alpha_max"]
+    smallest = parallel.mesh(comm, PLATE, points=2000, accept=["fvcom", "mpas"], split_ears=True,
+                             size={"wave": "1 + 3*x", "coast": lambda p: 5 - 2 * p[:, 0]})
+    found["smallest"], found["shares"] = smallest.hash, smallest.size_shares
+    found["verdicts"] = [(v.solver, v.rule, v.limit, v.worst, v.broken, v.measured, v.refuses) for v in
+                         smallest.verdicts]
+    smallest.write(directory / f"smallest{comm.size}.h5")
+    found["read_verdicts"] = parallel.read(comm, directory / f"smallest{comm.size}.h5").verdicts == smallest.verdicts
     found["formula"] = parallel.mesh(comm, PLATE, points=2000, size="1 + 3*x*x + y").hash
     graded = parallel.mesh(comm, PLATE, points=2000, size=holes)
     found["callable"] = graded.hash
@@ -183,6 +190,8 @@ def main(directory):
     found["negative"] = error_of(size=lambda p: p[:, 0] - 1)
     found["formula_error"] = error_of(size="1 + z")
     found["no_count"] = error_of(points=None)
+    found["no_model"] = error_of(accept=["fvcon"])
+    found["one_size_fails"] = error_of(size={"a": "1 + x", "b": failing(last=True)})
     lines = plain.to_meshio().cells_dict["line"]
     found["meshio"] = comm.allreduce(len(lines)) == comm.allreduce(plain.owned_facets)
     if comm.size == 2:

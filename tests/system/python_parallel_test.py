@@ -12,6 +12,9 @@ import unittest
 
 from trime_run import MPIEXEC, ROOT, WorkspaceCase, environment, run
 
+sys.path.insert(0, str(ROOT / "scripts" / "python"))
+import trime_mpi  # noqa: E402  (found by the line above)
+
 PYTHON_PATH = os.pathsep.join([str(ROOT / "scripts" / "python"), os.environ.get("PYTHONPATH", "")])
 PLATE = """[shape]
 geometry = difference(plate, hole)
@@ -28,6 +31,14 @@ radius = 0.2
 [meshing]
 points = 2000
 """
+SMALLEST = """split_ears = true
+[size.wave]
+expression = 1 + 3*x
+[size.coast]
+expression = 5 - 2*x
+[output]
+accept = fvcom mpas
+"""
 
 
 def python(*arguments, ranks=1, timeout=120):
@@ -41,8 +52,8 @@ def python(*arguments, ranks=1, timeout=120):
 
 
 class Parallel(WorkspaceCase):
-    def hash_of_program(self, sizing):
-        config = self.directory / "plate.ini"
+    def hash_of_program(self, sizing, name="plate"):
+        config = self.directory / f"{name}.ini"
         config.write_text(PLATE + sizing)
         done = run(config, "output.overwrite=true", f"output.directory={self.directory}")
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
@@ -57,12 +68,16 @@ class Parallel(WorkspaceCase):
         self.assertRegex(found["negative"][1], "expected a positive finite size, found -")
         self.assertEqual(found["formula_error"][0], "ConfigError")
         self.assertEqual(found["no_count"][0], "ConfigError")
+        self.assertRegex(found["no_model"][1], "expected names of models among adcirc .*, found 'fvcon'")
+        self.assertEqual(found["one_size_fails"][2:], ["ZeroDivisionError", 1])
 
     def test_the_same_mesh_on_all_ranks_as_by_the_program(self):
         expected = {"uniform": self.hash_of_program(""),
                     "automatic": self.hash_of_program("[sizing]\ntype = automatic\n"),
+                    "smallest": self.hash_of_program(SMALLEST, "smallest_of_program"),
                     "formula": self.hash_of_program("[sizing]\ntype = expression\nexpression = 1 + 3*x*x + y\n")}
         started, smooth = set(), set()
+        by_program = trime_mpi.read(self.directory / "smallest_of_program.h5")
         for ranks in (1, 2, 3):
             found = json.loads(python(ROOT / "tests" / "system" / "python_parallel_ranks.py", self.directory,
                                       ranks=ranks).splitlines()[-1])
@@ -70,7 +85,10 @@ class Parallel(WorkspaceCase):
             self.assertEqual({name: found[name] for name in expected}, expected)
             self.assertEqual([found["callable"], found["read"]], 2 * [expected["formula"]])
             self.assertEqual([name for name, holds in found["arrays"].items() if not holds], [])
-            self.assertTrue(found["checks"] and found["meshio"])
+            self.assertTrue(found["checks"] and found["meshio"] and found["read_verdicts"])
+            self.assertEqual(found["shares"], by_program.size_shares)
+            self.assertEqual(found["verdicts"], [[v.solver, v.rule, v.limit, v.worst, v.broken, v.measured, v.refuses]
+                                                 for v in by_program.verdicts])
             smooth.add(found["smooth"])
             self.assertLess(found["calls"], 20000)  # one a point, where each place alone would take many
             self.assertGreater(found["places"], 200000)

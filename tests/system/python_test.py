@@ -188,6 +188,21 @@ class Running(unittest.TestCase):
             self.assertIn((0.25, 0.5), {tuple(point) for point in mesh.points})
             self.assertEqual(trime_mpi.read("out/m.h5").hash, mesh.hash)
 
+    def test_rules_of_models_and_several_sizes(self):
+        config = {
+            "shape": {"geometry": "disc", "disc": {"type": "circle", "center": (0.5, 0.5), "radius": 0.4}},
+            "size": {"wave": {"expression": "1 + x"}, "coast": {"expression": "2 - x"}}, "meshing": {"points": 300},
+            "output": {"accept": ["fvcom", "mpas"], "open_boundary": ["disc", "disc"]}}
+        mesh = trime_mpi.mesh(config)
+        self.assertEqual({verdict.solver for verdict in mesh.verdicts}, {"fvcom", "mpas"})
+        self.assertTrue(all(verdict.holds for verdict in mesh.verdicts if verdict.refuses))
+        angle = next(verdict for verdict in mesh.verdicts if verdict.rule == "least_angle")
+        self.assertAlmostEqual(angle.worst, mesh.tables["quality"]["min_angle_degrees"], places=9)
+        self.assertEqual((angle.is_least, angle.limit, angle.measured), (True, 30, len(mesh.triangles)))
+        self.assertEqual(set(mesh.size_shares), {"size.wave", "size.coast"})
+        self.assertEqual(sum(mesh.size_shares.values()), len(mesh.points))
+        self.assertEqual(mesh.attributes["open_boundary"], "disc,disc")
+
     def test_none_is_the_default(self):
         mesh = trime_mpi.mesh(changed(meshing={"points": 700, "fixed_points": None, "seed": None}), threads=1)
         self.assertEqual(mesh.hash, trime_mpi.mesh(changed(meshing={"points": 700}), threads=1).hash)

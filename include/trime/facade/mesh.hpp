@@ -12,6 +12,7 @@
 #include "trime/formats/exchange.hpp"
 #include "trime/handover/local_mesh.hpp"
 #include "trime/mesh/quality.hpp"
+#include "trime/record/verdict.hpp"
 #include "trime/sweep/sweep_history.hpp"
 
 #include <array>
@@ -156,6 +157,14 @@ struct MeshOptions {
   std::vector<Curve> curves{};         ///< curves inside the shape; not split in a periodic container
   boundary::FeatureOptions features{}; ///< which corners, islands and lakes the mesh keeps
   int max_sweeps = 500;
+  /// Divides triangles with two boundary edges, in corners of 60 degrees or more. Some models need it, see `accept`.
+  bool split_ears = false;
+  /// Models whose rules the mesh is measured by: "adcirc", "schism", "telemac", "fvcom", "delft3d", "mpas". See
+  /// Mesh::verdicts and configs/formats.md. A rule that makes the model refuse the mesh is a check of the mesh.
+  std::vector<std::string> accept{};
+  /// Names of those parts of the boundary that are open, in `accept` and in the files of coastal models: the name of a
+  /// part, or the text before or behind its dot. Not set: parts whose name has the word "open", "ocean" or "sea".
+  std::optional<std::vector<std::string>> open_boundary{};
   double worst_alpha =
       5; ///< a triangle with a larger alpha, R/(2r), fails a check, unless it lies at a corner below 60 degrees
   std::uint64_t seed = 1;
@@ -165,6 +174,9 @@ struct MeshOptions {
   const Mesh* start = nullptr;
   Log* log = nullptr; ///< receives all messages; null: warnings go to the standard error of rank 0
 };
+
+using record::SizeShare;
+using record::Verdict;
 
 /// The options of Mesh::write.
 struct WriteOptions {
@@ -186,6 +198,12 @@ public:
   bool certified() const;
   const mesh::Checks& checks() const;
   const mesh::QualitySummary& quality() const;
+  /// @brief Returns what the mesh says to each rule of the models in MeshOptions::accept, or in the config of the file
+  /// that was read. Same on all ranks. Not collective.
+  std::vector<Verdict> verdicts() const;
+  /// @brief Returns how many points each of several sizes decides; empty if there was one size. Same on all ranks. Not
+  /// collective.
+  std::vector<SizeShare> size_shares() const;
   /// Returns the hash of points and triangles, which is the same for any number of ranks and threads.
   std::uint64_t hash() const;
   /// Returns how often the points were moved; 0 for a mesh that was read from a file.

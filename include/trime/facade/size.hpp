@@ -7,14 +7,19 @@
 #include <concepts>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 namespace trime::sizing {
 class SizeField;
 }
 
 namespace trime {
+
+struct NamedSize;
 
 /// @brief The target edge length of the triangles, up to a factor that make_mesh chooses so that the mesh has
 /// MeshOptions::points or edge_length. Copies are cheap.
@@ -31,31 +36,43 @@ public:
   /// @pre not null
   Size(std::shared_ptr<const sizing::SizeField> field) : field_(std::move(field)) {}
 
-  /// A size is one of these: a function, a field, a formula, the automatic size, or (if none is set) a uniform size.
+  /// A size is one of these: a function, a field, a formula, the automatic size, the smallest one of several sizes, or
+  /// (if none is set) a uniform size.
   const std::function<double(geometry::Vec2)>& function() const { return function_; }
   const std::shared_ptr<const sizing::SizeField>& field() const { return field_; }
   bool is_automatic() const { return is_automatic_; }
   double gradation() const { return gradation_; } ///< gradation of the automatic size
   /// The formula of a size that is one; otherwise empty.
   const std::string& formula() const { return formula_; }
+  /// The sizes whose smallest one this is; empty for other sizes.
+  std::span<const NamedSize> parts() const;
 
 private:
   Size() = default;
   friend Size uniform_size();
   friend Size automatic_size(double gradation);
   friend Size formula_size(const std::string& text);
+  friend Size smallest_size(std::vector<NamedSize> sizes);
 
   std::function<double(geometry::Vec2)> function_;
   std::shared_ptr<const sizing::SizeField>
       field_; ///< shared with the caller, whose field must exist as long as this object
   std::string formula_;
+  std::shared_ptr<const std::vector<NamedSize>> parts_; ///< shared by all copies; immutable
   bool is_automatic_ = false;
   double gradation_ = 0;
+};
+
+/// A size with a name, as one of several sizes.
+struct NamedSize {
+  std::string name; ///< letters, digits, `_` and `-`
+  Size size;
 };
 
 Size uniform_size();
 Size automatic_size(double gradation);
 Size formula_size(const std::string& text);
+Size smallest_size(std::vector<NamedSize> sizes);
 
 namespace sizes {
 
@@ -74,6 +91,15 @@ inline Size automatic(double gradation = 0.1) {
 /// formula is wrong, make_mesh throws a ConfigError on all ranks.
 inline Size formula(const std::string& text) {
   return formula_size(text);
+}
+/// @brief Returns the smallest one of several sizes at each place, such as
+/// `smallest({{"wave", sizes::formula("0.02 + 0.02*x")}, {"coast", near_coast}})`. These are the sections
+/// `[size.NAME]` of a config; the name `sizing` stands for its section `[sizing]`. Mesh::size_shares says how many
+/// points each size decides.
+/// @param sizes at least one, with different names; none is uniform or a minimum itself, otherwise make_mesh throws a
+/// ConfigError on all ranks. MeshOptions::max_size bounds all of them
+inline Size smallest(std::vector<NamedSize> sizes) {
+  return smallest_size(std::move(sizes));
 }
 
 } // namespace sizes

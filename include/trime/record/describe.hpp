@@ -10,6 +10,7 @@
 #include "trime/meshing/options.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,8 @@ struct Origin {
   std::vector<std::string> curve_names{};   ///< names of the curves, indexed by DistributedMesh::curve_numbers
   std::vector<std::int32_t> ring_lines{};   ///< line in a contour file of each loop of the shape; missing entries are 0
   std::vector<geometry::CurveKind> curve_kinds{}; ///< kinds of the curves, see geometry::InnerCurves::kinds
+  /// Names of the open parts in files for coastal models, see formats::Names::open_boundary.
+  std::optional<std::vector<std::string>> open_boundary{};
 };
 
 /// The smallest and the largest target edge length h at the points of the mesh.

@@ -17,14 +17,14 @@ from .errors import (ConfigError, FileError, GeometryError, IncompleteError, Int
 from .errors import missing_module as _missing_module
 
 try:
-    from .read import Boundary, Check, Curve, Interface, Mesh, read
+    from .read import Boundary, Check, Curve, Interface, Mesh, Verdict, read
     from .run import mesh
 except ModuleNotFoundError as _error:  # h5py or numpy
     raise _missing_module(_error) from None
 
 __all__ = ["Boundary", "Check", "ConfigError", "Curve", "FileError", "GeometryError", "IncompleteError", "Interface",
            "InternalError", "InterruptedRun", "MemoryLimit", "Mesh", "ProgramMissing", "StoppedAtCheckpoint",
-           "TrimeError", "mesh", "plot", "read"]
+           "TrimeError", "Verdict", "mesh", "plot", "read"]
 __version__ = "0.1.0"
 
 

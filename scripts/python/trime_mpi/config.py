@@ -9,8 +9,9 @@ import numpy as np
 from .errors import ConfigError
 from .outlines import points_text, rings_file
 
-PATHS = ("file", "fixed_points")     # keys whose values are paths, relative to the working directory in a dict
-FORMULAS = ("expression", "sdf")     # keys whose values are formulas
+PATHS = ("file", "fixed_points")      # keys whose values are paths, relative to the working directory in a dict
+FORMULAS = ("expression", "sdf")      # keys whose values are formulas
+NAMES = ("open_boundary", "size_at")  # keys whose values are names with blanks, separated by commas
 NOT_YET = "the size cannot be an array or a function yet; write a formula of x and y as text, such as '1+3*x'"
 
 
@@ -39,7 +40,7 @@ def scalar_text(value, where):
     return fail(where, "a text, a number, True or False, or a list of these", kind_of(value))
 
 
-def value_text(value, where):
+def value_text(value, where, between=" "):
     """Returns a value as text. A list becomes its values in a row: (0.5, 0.5) becomes 0.5 0.5."""
     if isinstance(value, np.ndarray) and value.ndim == 0:
         value = value.item()
@@ -48,7 +49,7 @@ def value_text(value, where):
     elif isinstance(value, np.ndarray) and value.ndim > 1:
         text = fail(where, "one value or one row of values", kind_of(value))
     else:
-        text = " ".join(scalar_text(one, where) for one in value)
+        text = between.join(scalar_text(one, where) for one in value)
     if "\n" in text:
         fail(where, "one line", repr(text))
     return text
@@ -58,7 +59,7 @@ def text_for(key, value, where):
     """Returns the value of a key as text. A formula may be a number."""
     if key in FORMULAS and not isinstance(value, (str, numbers.Real)):
         fail(where, "a formula", kind_of(value) + (f"; {NOT_YET}" if key == "expression" else ""))
-    return value_text(value, where)
+    return value_text(value, where, ", " if key in NAMES else " ")
 
 
 def is_section(name, key, value):

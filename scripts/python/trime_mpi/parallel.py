@@ -23,7 +23,7 @@ import numpy as np
 
 from .errors import IncompleteError, TrimeError
 from .handover import Dolfinx, dolfinx_of, meshio_of
-from .read import Check
+from .read import Check, Verdict
 
 NAME = "trime_mpi._parallel"
 CELL_KINDS = ("voronoi", "whole", "triangles")
@@ -109,9 +109,17 @@ def mesh(comm, shape, *, size=None, **options):
 
     size is the wanted edge length, up to a factor: None for the same everywhere, a formula as text ("1 + 3*x"),
     automatic(), or a function. The function gets an array of n places with the shape (n, 2), and returns n sizes. It
-    must give a place the same size on every rank, and in every array. Exactly one of points=N and edge_length=H must be
-    given, or absolute_sizes=True. Other options are those of trime::MeshOptions: gradation, min_size, max_size,
-    regions, curves, fixed_points (an array), container ((x, y), (x, y)), periodic_x, periodic_y, method, max_sweeps ...
+    must give a place the same size on every rank, and in every array. A dict {name: size} stands for the smallest one
+    of several sizes; then size_shares of the mesh says how many points each of them decides.
+
+    Exactly one of points=N and edge_length=H must be given, or absolute_sizes=True. Other options are those of
+    trime::MeshOptions: gradation, min_size, max_size, regions, curves, fixed_points (an array), container ((x, y), (x,
+    y)), periodic_x, periodic_y, method, max_sweeps ...
+
+    accept names models whose rules the mesh is measured by, such as ["adcirc", "fvcom"]; `verdicts` of the mesh has a
+    Verdict for each rule. A rule that makes the model refuse the mesh is a check. The option split_ears=True divides
+    triangles with two boundary edges, which some of these models refuse. The list open_boundary has the names of the
+    open parts of the boundary, for these rules and for files of coastal models; see configs/formats.md.
 
     start is an old mesh, of this function or of read(), or the path of a mesh file. Its points in the new shape are the
     first points of the new mesh. If shape and size differ little, this takes fewer sweeps than new points.
@@ -163,7 +171,9 @@ class Mesh:
     owned_points, owned_triangles, owned_facets, owned_curve_edges and owned_interfaces count what this rank owns.
     first_point is the global id of the first point. total_points and total_triangles count over all ranks.
 
-    `sweeps` says how often the points were moved, 0 for a mesh that was read.
+    `verdicts` lists what the mesh says to the rules of models, see trime_mpi.read.Verdict. `size_shares` is a dict with
+    the number of points that each of several sizes decides, by its section in a config, such as "size.wave". `sweeps`
+    says how often the points were moved, 0 for a mesh that was read.
 
     The pair `periods` has the periods of the container, 0 where it is not periodic. Triangles across its border have
     points on both sides. Facets on a split curve have the number of parts plus that of the curve in facet_parts;
@@ -175,6 +185,8 @@ class Mesh:
         self.hash, self.certified, self.quality = native.hash, native.certified, native.quality
         self.periods, self.sweeps = native.periods, native.sweeps
         self.checks = [Check(*row) for row in native.checks]
+        self.verdicts = [Verdict(*row) for row in native.verdicts]
+        self.size_shares = native.size_shares
         for kind, names in native.names.items():
             setattr(self, {"facets": "facet", "regions": "region", "curves": "curve", "interfaces": "interface",
                            "split_curves": "split_curve"}[kind] + "_names", names)

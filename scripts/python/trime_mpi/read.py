@@ -26,6 +26,40 @@ class Check:
 
 
 @dataclasses.dataclass(frozen=True)
+class Verdict:
+    """What a mesh says to one rule of a model of coasts or oceans, see `accept` in configs/formats.md.
+
+    The text solver names the model, and rule what is limited, such as "least_angle". If is_least is True, limit is the
+    smallest allowed value, otherwise the largest one. The worst value lies at place (x, y); a rule about the whole mesh
+    has no place. The numbers broken and measured count triangles, points or pairs. If refuses is True, the model stops
+    where the rule is broken.
+    """
+    solver: str
+    rule: str
+    is_least: bool
+    limit: float
+    worst: float
+    broken: int
+    measured: int
+    refuses: bool
+    place: tuple | None
+
+    @property
+    def holds(self):
+        """True if nothing breaks the rule."""
+        return self.broken == 0
+
+
+def verdicts_of(table):
+    """Returns the rows of the table `accept` of a file as a list of Verdict."""
+    columns = [table.get(name, []) for name in ("solver", "rule", "is_least", "limit", "worst", "broken", "measured",
+                                                "refuses", "x", "y")]
+    return [Verdict(solver, rule, bool(is_least), float(limit), float(worst), int(broken), int(measured), bool(refuses),
+                    (float(x), float(y)) if np.isfinite([x, y]).all() else None)
+            for solver, rule, is_least, limit, worst, broken, measured, refuses, x, y in zip(*columns)]
+
+
+@dataclasses.dataclass(frozen=True)
 class Boundary:
     """The boundary edges that follow one part of the shape.
 
@@ -149,6 +183,17 @@ class Mesh:
     def periods(self):
         """The periods (x, y) of the container; 0 where it is not periodic."""
         return float(self.attributes.get("period_x", 0)), float(self.attributes.get("period_y", 0))
+
+    @functools.cached_property
+    def verdicts(self):
+        """What the mesh says to the rules of the models in `accept`, a list of Verdict."""
+        return verdicts_of(self.tables.get("accept", {}))
+
+    @functools.cached_property
+    def size_shares(self):
+        """The number of points that each of several sizes decides, by its section in the config; empty for one size."""
+        table = self.tables.get("sizes", {})
+        return dict(zip(table.get("name", ()), map(int, table.get("points", ()))))
 
     @functools.cached_property
     def parts(self):

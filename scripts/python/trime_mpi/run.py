@@ -110,9 +110,10 @@ def mesh(config, ranks=1, threads=None, program=None, *, output=None, overwrite=
 
     config is the path of an ini file, or a dict {section: {key: value}} with the keys of configs/keys.md. In a dict a
     part may have `rings` instead of a file: one ring [k,2], a list of rings, or polygons of shapely, geopandas and
-    others that have __geo_interface__. `fixed_points` may be an array [k,2]. Sizes are formulas; they cannot be arrays
-    or functions yet. Paths in a dict are relative to the working directory. Paths in an ini file, and in the options
-    for it, are relative to the ini file.
+    others that have __geo_interface__. `fixed_points` may be an array [k,2]. A key with several values takes a list,
+    such as {"output": {"accept": ["adcirc", "fvcom"], "open_boundary": ["open sea", "river"]}}. Then the Mesh has
+    `verdicts`. Sizes are formulas; they cannot be arrays or functions yet. Paths in a dict are relative to the working
+    directory. Paths in an ini file, and in the options for it, are relative to the ini file.
 
       ranks       number of MPI ranks (default: 1); mpirun starts them if there are more than one
       threads     number of threads of each rank (default: OMP_NUM_THREADS, or all cores)

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <numbers>
 #include <set>
 #include <stdexcept>
 
@@ -241,6 +242,75 @@ TEST(Facade, SizesByAFunctionAndAutomatically) {
   EXPECT_EQ(automatic.hash(), make_mesh(MPI_COMM_SELF, plate(), sizes::automatic(0.2), options).hash());
 }
 
+TEST(Facade, TheSmallestOfSeveralSizesCounts) {
+  const Size rising([](Vec2 p) { return 0.02 + 0.02 * p.x; });
+  const Size smallest = sizes::smallest({{"wave", rising}, {"coast", sizes::formula("0.05 - 0.02*x")}});
+  const MeshOptions options{.absolute_sizes = true, .max_size = 0.045};
+  const Mesh mesh = make_mesh(MPI_COMM_WORLD, plate(), smallest, options);
+  EXPECT_TRUE(mesh.certified());
+  EXPECT_EQ(mesh.hash(), make_mesh(MPI_COMM_SELF, plate(), smallest, options).hash());
+  const Size by_hand([](Vec2 p) { return std::fmin(0.02 + 0.02 * p.x, 0.05 - 0.02 * p.x); });
+  EXPECT_EQ(mesh.hash(), make_mesh(MPI_COMM_WORLD, plate(), by_hand, options).hash());
+  const std::vector<SizeShare> shares = mesh.size_shares();
+  ASSERT_EQ(shares.size(), 2u);
+  EXPECT_EQ(shares[0].name, "size.wave");
+  EXPECT_EQ(shares[0].points + shares[1].points, mesh.points());
+  double waves = 0; // the two sizes meet at x = 0.75
+  const LocalMesh local = mesh.local();
+  for (LocalIndex k = 0; k < local.owned_points(); ++k)
+    waves += local.points()[static_cast<std::size_t>(k)].x < 0.75 ? 1 : 0;
+  EXPECT_NEAR(static_cast<double>(shares[0].points), local.sum(waves), 2);
+  const comm::Communicator world = comm::Communicator::world();
+  const test::TemporaryDirectory directory(world);
+  mesh.write(directory.path() + "/smallest.h5");
+  const Mesh read = read_mesh(MPI_COMM_WORLD, directory.path() + "/smallest.h5");
+  ASSERT_EQ(read.size_shares().size(), 2u);
+  EXPECT_EQ(read.size_shares()[1].points, shares[1].points);
+}
+
+TEST(Facade, RulesOfModelsJudgeTheMesh) {
+  const double half = 35 * std::numbers::pi / 180; // two corners of 70 degrees, with one triangle each
+  const Shape rhombus =
+      rings("rhombus",
+            {{{0, 0}, {std::cos(half), -std::sin(half)}, {2 * std::cos(half), 0}, {std::cos(half), std::sin(half)}}});
+  MeshOptions options{.points = 300, .accept = {"fvcom", "adcirc"}};
+  const Mesh eared = make_mesh(MPI_COMM_WORLD, rhombus, options);
+  options.split_ears = true;
+  const Mesh split = make_mesh(MPI_COMM_WORLD, rhombus, options);
+  const auto ears = [](const Mesh& mesh) {
+    const std::vector<Verdict> verdicts = mesh.verdicts();
+    const auto found = std::ranges::find_if(
+        verdicts, [](const Verdict& v) { return v.solver == "fvcom" && v.rule == "boundary_edges"; });
+    return found == verdicts.end() ? Verdict{} : *found;
+  };
+  EXPECT_EQ(ears(eared).broken, 2);
+  EXPECT_EQ(ears(eared).worst, 2);
+  EXPECT_EQ(ears(eared).measured, eared.triangles());
+  EXPECT_TRUE(ears(eared).place.has_value());
+  EXPECT_LT(ears(split).broken, ears(eared).broken);
+  EXPECT_NE(eared.hash(), split.hash());
+  const comm::Communicator world = comm::Communicator::world();
+  const test::TemporaryDirectory directory(world);
+  eared.write(directory.path() + "/eared.h5");
+  const Mesh read = read_mesh(MPI_COMM_WORLD, directory.path() + "/eared.h5");
+  ASSERT_EQ(read.verdicts().size(), eared.verdicts().size());
+  EXPECT_EQ(read.verdicts().back().worst, eared.verdicts().back().worst);
+  EXPECT_EQ(ears(read).place, ears(eared).place);
+  EXPECT_TRUE(make_mesh(MPI_COMM_WORLD, rhombus, {.points = 300}).verdicts().empty());
+}
+
+TEST(Facade, AnOpenBoundaryIsNamedForRulesAndFiles) {
+  // SCHISM refuses an outer loop that is open all along.
+  const MeshOptions options{.points = 300, .accept = {"schism"}, .open_boundary = std::vector<std::string>{"plate"}};
+  const Mesh mesh = make_mesh(MPI_COMM_WORLD, plate(), options);
+  EXPECT_FALSE(mesh.certified());
+  const std::vector<Verdict> verdicts = mesh.verdicts();
+  EXPECT_TRUE(std::ranges::any_of(verdicts, [](const Verdict& v) {
+    return v.rule == "looped_open_boundary" && v.broken == 1 && v.refuses && !v.place;
+  }));
+  EXPECT_TRUE(make_mesh(MPI_COMM_WORLD, plate(), {.points = 300, .accept = {"schism"}}).certified());
+}
+
 TEST(Facade, AbsoluteSizesAreLengths) {
   const Size size([](Vec2 p) { return 0.02 + 0.05 * p.x; });
   const Mesh mesh = make_mesh(MPI_COMM_WORLD, plate(), size, {.absolute_sizes = true});
@@ -340,6 +410,26 @@ TEST(FacadeErrors, Options) {
   MeshOptions beyond{.points = 100};
   beyond.features.max_loss = 1.5;
   expect_in("expected a share from 0 to 1, found 1.5", error_of<ConfigError>(mesh_with(beyond)));
+}
+
+TEST(FacadeErrors, ModelsAndSeveralSizes) {
+  const auto mesh_with = [](const Size& size, const MeshOptions& options) {
+    return [=] { make_mesh(MPI_COMM_WORLD, plate(), size, options); };
+  };
+  const auto smallest = [](std::vector<NamedSize> sizes) { return sizes::smallest(std::move(sizes)); };
+  const MeshOptions options{.points = 200};
+  expect_in("adcirc schism telemac fvcom delft3d mpas, found 'fvcon'",
+            error_of<ConfigError>(mesh_with(sizes::uniform(), {.points = 200, .accept = {"fvcon"}})));
+  expect_in("did you mean 'hole'",
+            error_of<ConfigError>(
+                mesh_with(sizes::uniform(), {.points = 200, .open_boundary = std::vector<std::string>{"hol"}})));
+  const Size formula = sizes::formula("1 + x");
+  expect_in("the size 'a' is uniform", error_of<ConfigError>(mesh_with(smallest({{"a", sizes::uniform()}}), options)));
+  expect_in("two sizes are called 'a'",
+            error_of<ConfigError>(mesh_with(smallest({{"a", formula}, {"a", formula}}), options)));
+  expect_in("the name 'a b' of a size", error_of<ConfigError>(mesh_with(smallest({{"a b", formula}}), options)));
+  expect_in("'outer' is the smallest one of others",
+            error_of<ConfigError>(mesh_with(smallest({{"outer", smallest({{"a", formula}})}}), options)));
 }
 
 TEST(FacadeErrors, Shapes) {

@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 namespace trime::sizing {
 namespace {
@@ -32,6 +35,24 @@ TEST(MinimumSize, IsTheSmallestOneAndNamesIt) {
   EXPECT_EQ(smallest.smallest_field({1, 0}), 0U);
   EXPECT_FALSE(smallest.is_uniform());
   EXPECT_FALSE(smallest.jumps());
+}
+
+TEST(MinimumSize, ABlockHasTheValuesOfItsPlaces) {
+  const LinearSize falling(2, -1), rising(1, 1), broken(std::nan(""), 0);
+  const UniformSize level(1.4);
+  const std::vector<geometry::Vec2> places{{0, 0}, {0.3, 0}, {0.5, 0}, {1, 0}, {3, 0}};
+  for (const MinimumSize& smallest : {MinimumSize({&falling, &rising, &level}), MinimumSize({&level, &broken, &rising}),
+                                      MinimumSize({&broken, &falling})}) {
+    std::vector<std::size_t> fields(places.size());
+    std::vector<double> sizes(places.size()), values(places.size());
+    smallest.sizes(places, sizes);
+    smallest.smallest_fields(places, fields, values);
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      EXPECT_EQ(std::bit_cast<std::uint64_t>(sizes[k]), std::bit_cast<std::uint64_t>(smallest.size(places[k])));
+      EXPECT_EQ(std::bit_cast<std::uint64_t>(values[k]), std::bit_cast<std::uint64_t>(sizes[k]));
+      EXPECT_EQ(fields[k], smallest.smallest_field(places[k]));
+    }
+  }
 }
 
 TEST(MinimumSize, KeepsInvalidSizesSoThatTheMesherSeesThem) {

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Judges the mesh of a run by the rules of the models that its config names, and reports what was found.
+// Judges a mesh by the rules of the models that a config or a program names, and reports what was found.
 #pragma once
 
 #include "acceptance/judge.hpp"
 #include "trime/core/log.hpp"
 #include "trime/io/metadata.hpp"
 #include "trime/meshing/options.hpp"
+#include "trime/record/verdict.hpp"
 
 #include <string>
 #include <vector>
 
-namespace trime::app {
+namespace trime::record {
 
 /// Holds what the rules need to know in addition to the mesh.
 struct AcceptanceInput {
@@ -32,5 +33,8 @@ void print_verdicts(const std::vector<acceptance::Verdict>& verdicts, bool split
 
 /// Returns the verdicts as a group of the mesh file, with one row for each rule.
 io::MetadataGroup accept_group(const std::vector<acceptance::Verdict>& verdicts);
+/// Returns the verdicts in the metadata of a file; none if it has no group with them.
+/// @throws FileError on this rank alone if a column is missing
+std::vector<Verdict> verdicts_of(const io::Metadata& metadata);
 
-} // namespace trime::app
+} // namespace trime::record
