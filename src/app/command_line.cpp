@@ -34,7 +34,8 @@ void declare(CLI::App& app, CommandLine& line, Flags& flags) {
                "would keep every feature of the shape");
   app.add_flag("--print-config", flags.print_config, "print the config with all defaults, as a complete file");
   app.add_flag("--overwrite", flags.overwrite, "with convert and refine: replace the file OUT if it exists");
-  app.add_flag("--degrees", flags.degrees, "with convert: write longitude and latitude into .14, .gr3 and .2dm");
+  app.add_flag("--degrees", flags.degrees,
+               "with convert: write longitude and latitude into .14, .gr3, _grd.dat and .2dm");
   app.add_option("--cells", flags.cells,
                  "with convert: voronoi, whole or triangles, the cells in _mpas.nc, .disv, .uge and .tough")
       ->check(CLI::IsMember({"voronoi", "whole", "triangles"}));

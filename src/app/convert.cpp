@@ -323,6 +323,8 @@ ExitCode convert(const CommandLine& line, io::RunFiles* files, const comm::Commu
     log.info("{}: {} points, {} triangles, {} boundary edges", path, mesh.point_slab.total, mesh.triangle_slab.total,
              mesh.facet_slab.total);
   print_cells(made, log);
+  if (!made.warning.empty())
+    log.warning("{}", made.warning);
   return mesh::all_passed(made.checks) ? ExitCode::done : ExitCode::incomplete;
 }
 
@@ -330,8 +332,6 @@ void print_cells(const formats::Exported& made, Log& log) {
   if (made.checks.empty())
     return;
   log.summary("{}", made.summary);
-  if (!made.warning.empty())
-    log.warning("{}", made.warning);
   for (const mesh::Check& check : made.checks)
     if (!check.passed)
       log.warning("the Voronoi cells are NOT right: check {} FAILED: expected {:.15g}, found {:.15g} ({})", check.name,

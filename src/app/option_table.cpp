@@ -561,18 +561,19 @@ const Option table[] = {
      .key = "open_boundary",
      .kind = OptionKind::text,
      .fallback = "auto",
-     .meaning =
-         "names of the open parts of the boundary, for `fort14`, `gr3` and `slf`, separated by commas. auto: parts "
-         "with the word "
-         "open, ocean or sea; none: no part is open"},
+     .meaning = "names of the open parts of the boundary, for `fort14`, `gr3`, `slf` and `fvcom`, separated by commas. "
+                "auto: parts "
+                "with the word "
+                "open, ocean or sea; none: no part is open"},
     {.section = "output",
      .key = "coordinates",
      .kind = OptionKind::word,
      .fallback = "plane",
      .choices = "plane degrees",
-     .meaning = "coordinates in files of `fort14`, `gr3` and `2dm`; plane: those of the mesh; degrees: longitude and "
-                "latitude, "
-                "for meshes of contours that have a projection"},
+     .meaning =
+         "coordinates in files of `fort14`, `gr3`, `fvcom` and `2dm`; plane: those of the mesh; degrees: longitude and "
+         "latitude, "
+         "for meshes of contours that have a projection"},
     {.section = "output",
      .key = "cells",
      .kind = OptionKind::word,
@@ -586,9 +587,9 @@ const Option table[] = {
      .key = "depth",
      .kind = OptionKind::text,
      .fallback = "none",
-     .meaning =
-         "depth at the points for coastal models, positive downwards, as a formula of x, y and data of "
-         "[field.NAME], such as `-elevation`; none: the files of `fort14`, `gr3`, `slf` and `2dm` have the depth 0"},
+     .meaning = "depth at the points for coastal models, positive downwards, as a formula of x, y and data of "
+                "[field.NAME], such as `-elevation`; none: the files of `fort14`, `gr3`, `slf`, `fvcom` and `2dm` have "
+                "the depth 0"},
     {.section = "output",
      .key = "accept",
      .kind = OptionKind::words,

@@ -477,7 +477,8 @@ void MeshRun::print_results(const RunFacts& facts) const {
     job_.log.info("{}", run_report(facts.result, facts.size, facts.measured, facts.files, input_.normalized));
   else
     job_.log.summary("{}", run_summary(facts));
-  for (const formats::Format format : {formats::Format::adcirc, formats::Format::schism, formats::Format::telemac})
+  for (const formats::Format format :
+       {formats::Format::adcirc, formats::Format::schism, formats::Format::telemac, formats::Format::fvcom})
     if (job_.options.write && job_.options.output.wants(format))
       job_.log.summary("{}: {}", formats::info_of(format).word,
                        formats::open_boundary_text(series_options(job_, input_).names, facts.part_edges));
@@ -485,6 +486,8 @@ void MeshRun::print_results(const RunFacts& facts) const {
     job_.log.summary("{}", record::text_of(*courant_));
   record::print_verdicts(verdicts_, job_.options.mesh.split_ears, job_.log);
   print_cells(series_.cells(), job_.log);
+  for (const std::string& warning : series_.warnings())
+    job_.log.warning("{}", warning);
   if (!is_complete(facts.result))
     job_.log.warning("{}", incompleteness(facts.result, job_.options.write));
   else if (!input_.domain().curves().empty())

@@ -5,8 +5,6 @@
 #include "projection/projection.hpp"
 #include "trime/core/error.hpp"
 
-#include <memory>
-
 namespace trime::formats {
 
 void to_degrees(std::vector<geometry::Vec2>& places, const std::string& crs, const char* format) {
@@ -19,6 +17,13 @@ void to_degrees(std::vector<geometry::Vec2>& places, const std::string& crs, con
                                   Place(p), format));
     p = *place;
   }
+}
+
+LonLat lon_lat_of(const ExchangeMesh& mesh, const char* format) {
+  const auto places =
+      std::make_shared<std::vector<geometry::Vec2>>(mesh.mesh().points.begin(), mesh.mesh().points.end());
+  comm::run_agreed(mesh.comm(), [&] { to_degrees(*places, mesh.names().crs, format); });
+  return places;
 }
 
 void check_degrees(const Names& names) {
@@ -40,9 +45,7 @@ io::TextRows numbered_points(const ExchangeMesh& mesh, const PointStyle& style) 
           append_line(to, id + 1, p.x, p.y, height(row));
         });
   check_degrees(mesh.names()); // all ranks find the same
-  const auto places =
-      std::make_shared<std::vector<geometry::Vec2>>(mesh.mesh().points.begin(), mesh.mesh().points.end());
-  comm::run_agreed(mesh.comm(), [&] { to_degrees(*places, mesh.names().crs, style.format); });
+  const LonLat places = lon_lat_of(mesh, style.format);
   return mesh.point_rows(
       [start = style.start, height, places](std::int64_t row, GlobalId id, geometry::Vec2, std::string& to) {
         const geometry::Vec2 p = (*places)[static_cast<std::size_t>(row)];

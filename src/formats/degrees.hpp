@@ -4,6 +4,7 @@
 
 #include "formats/exchange_mesh.hpp"
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,13 @@ namespace trime::formats {
 /// @param crs reference system of the plane, as PROJ names it @param format its word, for the message
 /// @throws FileError if a place has none
 void to_degrees(std::vector<geometry::Vec2>& places, const std::string& crs, const char* format);
+
+/// Longitude and latitude [degrees] of the points of this rank.
+using LonLat = std::shared_ptr<const std::vector<geometry::Vec2>>;
+/// @brief Returns the longitude and latitude of all points. Memory: 16 bytes for each point of this rank.
+/// @pre the reference system is known @param format its word, for the message
+/// @throws FileError on all ranks if a place has none @note Collective.
+LonLat lon_lat_of(const ExchangeMesh& mesh, const char* format);
 
 /// Says whether the third number of a point is positive downwards or upwards.
 enum class Height { depth, elevation };

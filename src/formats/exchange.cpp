@@ -32,6 +32,7 @@ constexpr FormatInfo table[] = {
     {Format::adcirc, "fort14", ".14", false, false, plan_adcirc},
     {Format::schism, "gr3", ".gr3", false, false, plan_schism},
     {Format::telemac, "slf", ".slf", false, false, plan_telemac},
+    {Format::fvcom, "fvcom", "_grd.dat", false, false, plan_fvcom},
     {Format::su2, "su2", ".su2", false, false, plan_su2},
     {Format::geojson, "geojson", ".geojson", false, true, plan_geojson},
     {Format::abaqus, "abaqus", ".inp", false, false, plan_abaqus},
@@ -123,6 +124,11 @@ std::vector<std::string> paths_of(Format format, const std::string& path, const 
   std::vector<std::string> paths{path};
   if (format == Format::telemac)
     paths.push_back(stem + ".cli");
+  if (format == Format::fvcom) {
+    paths.insert(paths.end(), {stem + "_dep.dat", stem + "_obc.dat"});
+    if (!names.crs.empty())
+      paths.push_back(stem + "_cor.dat");
+  }
   if (format == Format::disv)
     paths.push_back(stem + ".zones");
   if (format == Format::mpas)

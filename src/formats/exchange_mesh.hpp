@@ -122,6 +122,7 @@ std::vector<FilePlan> plan_adcirc(const ExchangeMesh& mesh, const std::string& p
 std::vector<FilePlan> plan_schism(const ExchangeMesh& mesh, const std::string& path);
 std::vector<FilePlan> plan_su2(const ExchangeMesh& mesh, const std::string& path);
 std::vector<FilePlan> plan_telemac(const ExchangeMesh& mesh, const std::string& path);
+std::vector<FilePlan> plan_fvcom(const ExchangeMesh& mesh, const std::string& path);
 std::vector<FilePlan> plan_geojson(const ExchangeMesh& mesh, const std::string& path);
 std::vector<FilePlan> plan_abaqus(const ExchangeMesh& mesh, const std::string& path);
 std::vector<FilePlan> plan_exodus(const ExchangeMesh& mesh, const std::string& path);

@@ -164,7 +164,9 @@ io::WrittenFiles MeshSeries::write_final(const SeriesMesh& mesh) {
                                            options_.file.run_files, comm_);
       written.paths.insert(written.paths.end(), made.paths.begin(), made.paths.end());
       if (!made.checks.empty())
-        cells_ = {{}, made.checks, made.summary, made.warning};
+        cells_ = {{}, made.checks, made.summary};
+      if (!made.warning.empty())
+        warnings_.push_back(made.warning);
     }
   return written;
 }

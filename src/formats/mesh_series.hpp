@@ -74,8 +74,10 @@ public:
   /// @return the files of the run, with those of the final mesh first; on rank 0 only
   io::WrittenFiles write_final(const SeriesMesh& mesh);
   /// Returns the checks of the Voronoi cells that write_final has written, and a line about them; both are empty if no
-  /// format has cells. The paths are left out.
+  /// format has cells. The paths and the warning are left out.
   const Exported& cells() const { return cells_; }
+  /// Returns what a user should know of the files that write_final has written.
+  const std::vector<std::string>& warnings() const { return warnings_; }
 
 private:
   /// A mesh of the series whose files are in the directory.
@@ -93,6 +95,7 @@ private:
   const comm::Communicator& comm_;
   std::vector<Member> members_;
   Exported cells_;
+  std::vector<std::string> warnings_;    ///< what write_final has learnt from the formats
   bool is_cleared_ = false;              ///< whether files of an older run have been removed
   std::vector<std::string> collections_; ///< files that list all meshes of the series
 };

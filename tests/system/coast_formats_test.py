@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests the files for coastal models (gr3, slf with cli, fort14, 2dm) and for SU2, with depths from data."""
+"""Tests the files for coastal models (gr3, slf with cli, fvcom, fort14, 2dm) and for SU2, with depths from data."""
 import json
 import re
 import unittest
@@ -9,7 +9,7 @@ import h5py
 import numpy as np
 
 from check_test import check, check_damaged
-from coast_readers import Gr3, Slf, Su2
+from coast_readers import Fvcom, Gr3, Slf, Su2
 from fields_test import write_ascii
 from format_readers import Expected, rows
 from trime_run import WorkspaceCase, run
@@ -29,11 +29,12 @@ file = ground.asc
 [meshing]
 points = 800
 [output]
-formats = vtkhdf xdmf gr3 slf fort14 2dm su2
+formats = vtkhdf xdmf gr3 slf fvcom fort14 2dm su2
 depth = 1 - elevation
 overwrite = true
 """
-FILES = ["bay.gr3", "bay.slf", "bay.cli", "bay.14", "bay.2dm", "bay.su2"]
+FILES = ["bay.gr3", "bay.slf", "bay.cli", "bay.14", "bay.2dm", "bay.su2", "bay_grd.dat", "bay_dep.dat", "bay_obc.dat"]
+BESIDE = ("bay.cli", "bay_dep.dat", "bay_obc.dat")  # written with another file
 
 
 def elevation(points):
@@ -65,14 +66,16 @@ class CoastFormats(WorkspaceCase):
     def test_each_format_holds_the_mesh(self):
         done = self.mesh(ranks=2)
         self.assertRegex(done.stdout, r"gr3: open boundary: bay\.open sea; land boundary: bay\.coast, bay\.island")
+        self.assertRegex(done.stdout, r"fvcom: open boundary: bay\.open sea; land boundary: bay\.coast, bay\.island")
+        self.assertRegex(done.stdout, r"the reference system .* is unknown, so there is no file _cor\.dat")
         self.assertRegex(done.stdout, r"depths from [\d.]+ to [\d.]+; 0 of \d+ points have a negative depth")
         expected = Expected(self.directory / "bay.h5")
         depth = 1 - elevation(expected.points)
         with h5py.File(self.directory / "bay.h5") as file:
             np.testing.assert_allclose(file["VTKHDF/PointData/depth"][:], depth, rtol=1e-9)
-        gr3, slf, su2 = (kind(self.directory / f"bay.{ending}") for kind, ending in
-                         ((Gr3, "gr3"), (Slf, "slf"), (Su2, "su2")))
-        for read in (gr3, slf, su2):
+        gr3, slf, su2, fvcom = (kind(self.directory / f"bay{ending}") for kind, ending in
+                                ((Gr3, ".gr3"), (Slf, ".slf"), (Su2, ".su2"), (Fvcom, "_grd.dat")))
+        for read in (gr3, slf, su2, fvcom):
             np.testing.assert_array_equal(read.points, expected.points)
             np.testing.assert_array_equal(read.triangles, expected.triangles)
         np.testing.assert_allclose(gr3.depth, depth, rtol=1e-9)
@@ -83,6 +86,9 @@ class CoastFormats(WorkspaceCase):
         heights = [float(line.split()[4]) for line in (self.directory / "bay.2dm").read_text().splitlines()
                    if line.startswith("ND ")]
         self.assertEqual(heights, (-gr3.depth).tolist())
+        np.testing.assert_array_equal(fvcom.depth, gr3.depth)
+        self.assertIsNone(fvcom.latitudes)
+        self.assertEqual([fvcom.obc.tolist()], [points for _, _, points in gr3.open])
         self.compare_boundaries(expected, gr3, slf, su2)
 
     def compare_boundaries(self, expected, gr3, slf, su2):
@@ -116,7 +122,7 @@ class CoastFormats(WorkspaceCase):
         for ranks, threads in ((2, 1), (3, 2), (7, 1)):
             self.mesh(ranks=ranks, threads=threads)
             self.assertEqual(self.files(), expected)
-        for name in (name for name in FILES if name != "bay.cli"):
+        for name in (name for name in FILES if name not in BESIDE):
             (self.directory / "again").mkdir(exist_ok=True)
             done = run("convert", self.directory / "bay.h5", self.directory / "again" / name, ranks=2)
             self.assertEqual(done.returncode, 0, done.stderr)
@@ -125,6 +131,35 @@ class CoastFormats(WorkspaceCase):
             if name.endswith((".gr3", ".14")):  # the first line is the path
                 again, expected[name] = (text.split(b"\n", 1)[1] for text in (again, expected[name]))
             self.assertEqual(again, expected[name], name)
+
+    def test_open_boundaries_of_fvcom(self):
+        """Two open parts that meet share a point; a whole ring is open; no part is open."""
+        for chosen, parts in (("open sea, coast", 2), ("island", 1), ("none", 0)):
+            self.mesh("output.formats=vtkhdf xdmf fvcom gr3", f"output.open_boundary={chosen}", ranks=3)
+            fvcom, gr3 = Fvcom(self.directory / "bay_grd.dat"), Gr3(self.directory / "bay.gr3")
+            self.assertEqual(len(gr3.open), parts)
+            self.assertEqual(set(fvcom.obc), {point for _, _, points in gr3.open for point in points})
+            edges = {tuple(sorted(edge)) for row in fvcom.triangles for edge in zip(row, np.roll(row, -1))}
+            breaks = [pair for pair in zip(fvcom.obc, fvcom.obc[1:]) if tuple(sorted(pair)) not in edges]
+            self.assertLessEqual(len(breaks), 1 if parts == 2 else 0)  # neighbours in the list are neighbours
+
+    def test_the_latitudes_of_fvcom(self):
+        (self.directory / "bay.geojson").write_text(json.dumps({"type": "Polygon", "coordinates": [
+            [[8, 54], [9, 54], [9, 55], [8, 55], [8, 54]]]}))
+        (self.directory / "bay.ini").write_text(
+            "[shape]\ngeometry = bay\nprojection = auto\n[shape.bay]\ntype = contour\nfile = bay.geojson\n"
+            "[meshing]\npoints = 300\n[output]\nformats = vtkhdf xdmf fvcom\noverwrite = true\n"
+            f"directory = {self.directory}\n")
+        self.mesh()
+        plane = Fvcom(self.directory / "bay_grd.dat")
+        self.mesh("output.coordinates=degrees", ranks=2)
+        degrees = Fvcom(self.directory / "bay_grd.dat")
+        np.testing.assert_array_equal(plane.latitudes, degrees.latitudes)
+        np.testing.assert_array_equal(degrees.points[:, 1], degrees.latitudes)
+        np.testing.assert_array_equal(plane.triangles, degrees.triangles)
+        self.assertTrue((abs(degrees.points - [8.5, 54.5]) < 0.5 + 1e-6).all())
+        self.assertGreater(np.ptp(plane.points[:, 1]), 1e5)  # metres
+        self.assertFalse(plane.depth.any() or len(plane.obc))
 
     def test_the_checker_reads_depths_and_finds_bad_ones(self):
         self.mesh("output.formats=vtkhdf xdmf")

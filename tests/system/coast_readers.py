@@ -39,6 +39,57 @@ class Gr3:
         return strings
 
 
+class Fvcom:
+    """CASE_grd.dat of FVCOM with its other files, read as FVCOM does: counts by their names, then rows in order.
+
+    obc are the points of the open boundary from 0, and latitudes those of _cor.dat, None without this file.
+    """
+
+    def __init__(self, path):
+        points, triangles, table = self.table(path, "Node Number", "Cell Number")
+        cells, nodes = np.array(table[:triangles], int), np.array(table[triangles:], float)
+        if cells.shape != (triangles, 4) or nodes.shape != (points, 3):
+            raise AssertionError("numbers of triangles and points")
+        if not (np.array_equal(cells[:, 0], np.arange(triangles) + 1) and
+                np.array_equal(nodes[:, 0], np.arange(points) + 1)):
+            raise AssertionError("triangles and points are numbered from 1")
+        self.points, self.triangles = nodes[:, 1:], cells[:, 1:] - 1
+        self.depth = self.values(self.beside(path, "dep"), points)
+        cor = self.beside(path, "cor")
+        self.latitudes = self.values(cor, points) if cor.exists() else None
+        count, rows = self.table(self.beside(path, "obc"), "OBC Node Number")
+        table = np.array(rows, int).reshape(count, 3)
+        if not (np.array_equal(table[:, 0], np.arange(count) + 1) and (table[:, 2] == 1).all()):
+            raise AssertionError("rows of the open boundary: number, point, type 1")
+        self.obc = table[:, 1] - 1
+        if len(set(self.obc)) != count or not np.isin(self.obc, np.arange(points)).all():
+            raise AssertionError("points of the open boundary, each once")
+
+    @staticmethod
+    def beside(path, kind):
+        return path.with_name(path.name.replace("_grd.dat", f"_{kind}.dat"))
+
+    @staticmethod
+    def table(path, *names):
+        """The counts with these names, and the rows behind them as words."""
+        lines = path.read_text().splitlines()
+        counts = []
+        for name, line in zip(names, lines):
+            found, count = line.split(" = ")
+            if found != name:
+                raise AssertionError(f"expected {name}: {line}")
+            counts.append(int(count))
+        return *counts, [line.split() for line in lines[len(names):]]
+
+    def values(self, path, points):
+        """The third column of a file that repeats the coordinates."""
+        count, table = self.table(path, "Node Number")
+        table = np.array(table, float)
+        if count != points or table.shape != (points, 3) or not np.array_equal(table[:, :2], self.points):
+            raise AssertionError(f"{path}: x, y and a value for each point")
+        return table[:, 2]
+
+
 class Slf:
     """Selafin of TELEMAC with double precision and one time, and its boundary conditions."""
 

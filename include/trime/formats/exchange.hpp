@@ -21,10 +21,10 @@ class ExchangeMesh;
 struct FilePlan;
 
 /// The output formats. vtkhdf and xdmf describe the arrays of NAME.h5 for other readers, and text has the files of
-/// TriMe++. The formats gmsh, gmsh2 and sms are MSH 4.1, MSH 2.2 and .2dm; schism is hgrid.gr3, and telemac is Selafin
-/// with its boundary conditions. The formats voronoi, mpas, disv (MODFLOW 6), uge (PFLOTRAN) and tough (TOUGH2) have
-/// the Voronoi cells of the points, not the triangles. The faces of ugrid are triangles, and those of ugrid_cells the
-/// cells.
+/// TriMe++. The formats gmsh, gmsh2 and sms are MSH 4.1, MSH 2.2 and .2dm; schism is hgrid.gr3, telemac is Selafin
+/// with its boundary conditions, and fvcom is CASE_grd.dat with the files for depths, open boundary and latitudes. The
+/// formats voronoi, mpas, disv (MODFLOW 6), uge (PFLOTRAN) and tough (TOUGH2) have the Voronoi cells of the points, not
+/// the triangles. The faces of ugrid are triangles, and those of ugrid_cells the cells.
 enum class Format {
   vtkhdf,
   xdmf,
@@ -42,6 +42,7 @@ enum class Format {
   adcirc,
   schism,
   telemac,
+  fvcom,
   su2,
   geojson,
   abaqus,
@@ -98,9 +99,10 @@ struct Names {
   geometry::Vec2 period{0, 0};
   /// Reference system of the coordinates, as PROJ names it; empty: unknown.
   std::string crs{};
-  /// Names of the parts that are open in fort14 (see configs/formats.md). No list: those whose name says it.
+  /// Names of the parts that are open in files for coastal models, such as fort14 (see configs/formats.md). No list:
+  /// those whose name says it.
   std::optional<std::vector<std::string>> open_boundary{};
-  /// The files of fort14 and 2dm hold longitude and latitude, not the coordinates of the mesh. Needs `crs`.
+  /// The files of fort14, gr3, fvcom and 2dm hold longitude and latitude, not the coordinates of the mesh. Needs `crs`.
   bool in_degrees = false;
   CellKind cells = CellKind::voronoi;             ///< cells in files of mpas, disv, uge and tough
   std::vector<geometry::CurveKind> curve_kinds{}; ///< kinds of the curves, see geometry::InnerCurves::kinds
@@ -119,8 +121,8 @@ struct Exported {
 };
 
 /// @brief Writes the mesh in a format of another program. Each file appears complete or not at all; files of the same
-/// name are replaced. The ranks make the text in slices, so no rank holds the whole of it; for sms, adcirc, schism and
-/// telemac, however, rank 0 gathers all boundary edges.
+/// name are replaced. The ranks make the text in slices, so no rank holds the whole of it; for sms, adcirc, schism,
+/// telemac and fvcom, however, rank 0 gathers all boundary edges.
 /// @param files list of the temporary files, which a signal handler removes; may be null
 /// @throws ConfigError for a mesh that the format cannot hold (periodic container, too many points); FileError if a
 /// file cannot be written; both on all ranks together
