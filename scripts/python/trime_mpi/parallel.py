@@ -23,6 +23,7 @@ import numpy as np
 
 from .errors import IncompleteError, TrimeError
 from .handover import Dolfinx, dolfinx_of, meshio_of
+from .petsc import Petsc, petsc_of
 from .read import Check, Verdict
 
 NAME = "trime_mpi._parallel"
@@ -255,6 +256,14 @@ class Mesh:
     def to_meshio(self):
         """Returns the owned triangles and edges of this rank as a meshio.Mesh, with global ids and names."""
         return meshio_of(self)
+
+    def to_petsc(self) -> Petsc:
+        """Returns the mesh as a DMPlex of PETSc with labels, see trime_mpi.petsc.Petsc. Collective.
+
+        Each rank keeps its triangles, and shares the vertices and edges between ranks as PETSc wants it. Needs
+        petsc4py with the same MPI.
+        """
+        return petsc_of(self)
 
     def to_dolfinx(self, ghost_mode="none") -> Dolfinx:
         """Returns the mesh for dolfinx, with tags, see trime_mpi.handover.Dolfinx. Collective.
