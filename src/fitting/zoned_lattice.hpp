@@ -17,9 +17,9 @@ namespace trime::fitting {
 /// A stage without inner sites, and the places of these sites: on a lattice, and along the Hilbert curve in the zones.
 struct ZonedLattice {
   sites::Stage stage;
-  FittedSize fitted;                                  ///< the size with which the stage was laid out
-  std::unique_ptr<const placing::LoweredZones> zones; ///< in them the boundary lowers the size
-  placing::LatticeRuns runs;                          ///< runs of this rank outside of the zones
+  FittedSize fitted;                                        ///< the size with which the stage was laid out
+  std::unique_ptr<const placing::LoweredZones> zones;       ///< in them the boundary lowers the size
+  placing::LatticeRuns runs;                                ///< runs of this rank outside of the zones
   std::unique_ptr<const placing::HilbertStart> along_curve; ///< places in the zones
   std::int64_t in_zones = 0;                                ///< number of sites in the zones
 };

@@ -2,7 +2,6 @@
 // The parts of a shape in which the boundary lowers a uniform size.
 #pragma once
 
-#include "placing/rules.hpp"
 #include "sizing/lowered_size.hpp"
 #include "trime/geometry/lattice.hpp"
 
@@ -12,10 +11,14 @@ namespace trime::placing {
 /// Hilbert curve; elsewhere a lattice has the right density. Immutable, thread-safe.
 class LoweredZones {
 public:
+  /// [1] A zone is where the size is lowered to a smaller share of the uniform size than this. Values from 0.8 to 0.99
+  /// gave the same mean alpha, to 0.0003, on coasts of 2e4 points and more.
+  static constexpr double hardly_lowered = 0.97;
+
   /// @param size the lowered size; it must outlive this object @param uniform the size before it is lowered
   /// @param gradation growth of the lowered size per length
   LoweredZones(const sizing::LoweredSize& size, double uniform, double gradation)
-      : size_(size), below_(PlacingRules::hardly_lowered * uniform), gradation_(gradation) {}
+      : size_(size), below_(hardly_lowered * uniform), gradation_(gradation) {}
 
   /// Returns true if p lies in a zone. Takes about 60 ns for a thousand limits of the size.
   bool hold(geometry::Vec2 p) const { return size_.lowered(p, below_) < below_; }

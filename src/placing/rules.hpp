@@ -15,8 +15,6 @@ struct PlacingRules {
   /// [sites] A run of a row of the lattice near the boundary is halved until it has at most this number of sites, or
   /// does not touch the strip. Not measured.
   static constexpr std::int64_t shortest_half = 3;
-  /// [1] Where the boundary lowers a uniform size to a smaller share of it than this, no lattice sites are placed.
-  static constexpr double hardly_lowered = 0.97;
   /// [h] Width of the strip along the boundary without sites, if sites are placed along the Hilbert curve. On a poker
   /// card with 1e4 points, 25 sites lay in diametral circles of boundary edges with this strip, and 288 without it. The
   /// strip also makes the number of sites correct.

@@ -285,9 +285,9 @@ PointScheme::First PointScheme::first_of_divisions() {
 
 /// The last stage of the divisions, by a coarse integral if there are several.
 std::variant<fitting::StageFit, fitting::TooFewPoints> PointScheme::find_last() {
-  return fit_.find_density(expected_points(), last_stage_ == 0 ? 1
-                                                               : std::fmax(fitting::LayoutRules::coarse_integral,
-                                                                           std::ldexp(1.0, last_stage_)));
+  return fit_.find_density(
+      expected_points(),
+      last_stage_ == 0 ? 1 : std::fmax(fitting::LayoutRules::coarse_integral, std::ldexp(1.0, last_stage_)));
 }
 
 PointScheme::First PointScheme::first_of_divisions(fitting::StageFit fit) {
