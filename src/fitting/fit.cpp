@@ -33,6 +33,13 @@ std::variant<StageFit, TooFewPoints> Fit::find_density(double points, double coa
   return std::move(trial.fit);
 }
 
+std::optional<ZonedLattice> Fit::find_zoned_lattice(StageFit& fit, double expected) {
+  std::optional<ZonedLattice> found = fit_zoned_lattice(context_, fitted_, fit, expected);
+  if (found)
+    fitted_ = found->fitted;
+  return found;
+}
+
 /// A fit with a boundary without edges that are too short, if that is possible. Between two searches for the factor the
 /// size is raised at the factor that the first one has found.
 std::variant<SizeTrial, TooFewPoints> Fit::long_enough(double points, double coarsening) {

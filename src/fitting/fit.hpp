@@ -8,6 +8,7 @@
 #include "fitting/layout.hpp"
 #include "fitting/size_trials.hpp"
 #include "fitting/stage_fit.hpp"
+#include "fitting/zoned_lattice.hpp"
 
 #include <optional>
 #include <span>
@@ -36,6 +37,10 @@ public:
   /// @return see fit_density; after TooFewPoints the object is the same as before
   /// @throws as fit_density
   std::variant<StageFit, TooFewPoints> find_density(double points, double coarsening);
+
+  /// @brief Fits a lattice to the size that find_density has found, if it is uniform except in zones in which the
+  /// boundary lowers it. @return as fit_zoned_lattice @throws as lay()
+  std::optional<ZonedLattice> find_zoned_lattice(StageFit& fit, double expected);
 
   /// Returns true if the uniform size of a lattice would make bad triangles in narrow parts of the shape.
   bool needs_lowering(const sites::Stage& laid) const { return fitting::needs_lowering(context_, laid); }

@@ -106,16 +106,15 @@ private:
   double stride_ = FitRules::least_step; // relative, while no spacing is known that is large enough
 };
 
-/// The runs of the smallest spacing found whose lattice has at most the wanted number of sites. All ranks take the same
-/// steps.
-placing::LatticeRuns fitting_runs(const LayoutContext& context, const Stage& stage) {
+} // namespace
+
+placing::LatticeRuns fitting_runs(const LayoutContext& context, const Stage& stage, const placing::LatticeStart& start,
+                                  double h, GlobalId wanted) {
   const auto time = context.timers.scope("start");
-  const double h = stage.size->size({});
-  const placing::LatticeStart start(context.given_boundary, *stage.guard, context.lattice);
   const mesh::TileRange tiles = placing::own_share(stage);
   const geometry::Box& container = context.domain.frame().container();
   const double none = 4 * (container.width() + container.height());
-  SpacingSearch search(*context.options.points - reserved_for_curves(context) - stage.placed_first(), h, none);
+  SpacingSearch search(wanted, h, none);
   placing::LatticeRuns fitting{none, {}};
   for (int round = 0; round < spacing_rounds && !search.is_over(); ++round) {
     placing::LatticeRuns runs = start.runs(tiles, search.spacing());
@@ -127,6 +126,8 @@ placing::LatticeRuns fitting_runs(const LayoutContext& context, const Stage& sta
   }
   return fitting;
 }
+
+namespace {
 
 /// @param relative size
 LatticeFit fit_edge_length(const LayoutContext& context, double relative) {
@@ -175,7 +176,9 @@ std::variant<LatticeFit, TooFewPoints> fit_points(const LayoutContext& context, 
       fit.shortage = fmt::format("with min_size = {:g} no more points fit", *options.min_size);
       return fit;
     }
-    fit.runs = fitting_runs(context, fit.stage);
+    fit.runs = fitting_runs(context, fit.stage,
+                            placing::LatticeStart(context.given_boundary, *fit.stage.guard, context.lattice), laid,
+                            *options.points - reserved_for_curves(context) - fit.stage.placed_first());
     const double spacing = fit.runs.spacing;
     if (is_of_no_use(context, fit.stage)) {
       const double share = static_cast<double>(fit.stage.placed_first()) / expected;

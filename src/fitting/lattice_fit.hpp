@@ -31,4 +31,9 @@ struct LatticeFit {
 /// @throws ConfigError if the edge length is below min_size or above max_size
 std::variant<LatticeFit, TooFewPoints> fit_lattice(const LayoutContext& context);
 
+/// @brief Returns the runs of the smallest spacing found whose lattice has at most `wanted` sites. The search begins at
+/// the spacing h. All ranks take the same steps. Collective.
+placing::LatticeRuns fitting_runs(const LayoutContext& context, const sites::Stage& stage,
+                                  const placing::LatticeStart& start, double h, GlobalId wanted);
+
 } // namespace trime::fitting

@@ -152,9 +152,10 @@ void set_sizes(const LayoutContext& context, FittedSize& fitted, Stage& stage) {
   stage.size = std::make_unique<sizing::ScaledSize>(*last, stage.coarsening);
 }
 
-/// The size for which the curves were simplified, over the fitted one; at least 1.
-double coarseness(const FittedSize& fitted) {
-  return std::fmax(1, fitted.curves.factor / fitted.factor);
+/// Notes the size for which the boundary or the curves inside were simplified, over the fitted one; at least 1.
+void note_coarseness(const FittedSize& fitted, Stage& stage) {
+  if (stage.curves || fitted.curves.inner)
+    stage.simplified.coarseness = std::fmax(1, fitted.curves.factor / fitted.factor);
 }
 
 /// The curves on which the sites of a stage lie: those of the shape, without what is narrower than its last size, or
@@ -169,7 +170,6 @@ const geometry::Boundary& generalised_curves(const LayoutContext& context, Fitte
     return given;
   stage.curves = {curves.found, &curves.found->boundary};
   stage.simplified = curves.found->counts;
-  stage.simplified.coarseness = coarseness(fitted);
   return curves.found->boundary;
 }
 
@@ -186,6 +186,7 @@ std::unique_ptr<BoundaryRefiner> make_refiner(const LayoutContext& context, std:
   const geometry::InnerCurves& inner = inner_curves(context, stage.asked_size(), boundary, fitted.curves);
   if (fitted.curves.relabelled)
     stage.curves = fitted.curves.relabelled;
+  note_coarseness(fitted, stage);
   const auto curves = std::make_shared<const boundary::LaidCurves>(stage.curves ? *stage.curves : boundary, inner,
                                                                    context.fixed.on_curves());
   const auto make = [&](const BoundarySizes& sizes) {
@@ -330,8 +331,7 @@ void rescale(const LayoutContext& context, FittedSize& fitted, Stage& laid, doub
   for (sizing::SizeLimit& limit : fitted.limits)
     limit.size *= scale;
   set_sizes(context, fitted, laid);
-  if (laid.curves)
-    laid.simplified.coarseness = coarseness(fitted);
+  note_coarseness(fitted, laid);
 }
 
 namespace {

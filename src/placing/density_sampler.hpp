@@ -8,6 +8,7 @@
 #include "core/hilbert.hpp"
 #include "core/thread_loop.hpp"
 #include "mesh/tile_grid.hpp"
+#include "placing/lowered_zones.hpp"
 #include "placing/rules.hpp"
 #include "polygon/boundary_guard.hpp"
 #include "trime/core/error.hpp"
@@ -33,9 +34,11 @@ public:
   static constexpr double weight_unit = 0x1p20; ///< the integer weight that stands for one site
 
   /// @param most_in_part [sites] the sampling of a part of a tile ends when it has this weight
+  /// @param zones cells outside of these zones are left out; null: none are
   DensitySampler(const mesh::TileGrid& grid, const polygon::BoundaryGuard& guard, const sizing::SizeField& size,
-                 const geometry::Lattice& lattice, double coarsening = 1, double most_in_part = INFINITY)
-      : grid_(grid), guard_(guard), size_(size), lattice_(lattice),
+                 const geometry::Lattice& lattice, double coarsening = 1, double most_in_part = INFINITY,
+                 const LoweredZones* zones = nullptr)
+      : grid_(grid), guard_(guard), size_(size), zones_(zones), lattice_(lattice),
         most_inside_(PlacingRules::sites_in_cell * coarsening * coarsening),
         most_near_(PlacingRules::sites_in_cell_near * coarsening * coarsening), most_in_part_(most_in_part) {}
 
@@ -193,6 +196,8 @@ private:
     const geometry::Box& box = part.box;
     const std::size_t chords_before = work.chords.size();
     const geometry::Vec2 p = middle(box);
+    if (zones_ && !zones_->may_touch(p, half_diagonal(box)))
+      return;
     const double h = part.size;
     const bool valid = sizing::is_valid_size(h);
     const bool inside = part.clear || guard_.inside(p);
@@ -220,7 +225,7 @@ private:
     work.chords.resize(chords_before);
     if (!clear && (to_boundary < free || !inside))
       return;
-    if (!grid_.container().contains(p))
+    if (!grid_.container().contains(p) || (zones_ && !zones_->hold(p)))
       return;
     work.sites += sites;
     visit(Cell{box, part.square.key, part.square.level, h, std::llround(weight_unit * sites)});
@@ -255,6 +260,7 @@ private:
   const mesh::TileGrid& grid_;
   const polygon::BoundaryGuard& guard_;
   const sizing::SizeField& size_;
+  const LoweredZones* zones_;
   const geometry::Lattice& lattice_;
   double most_inside_, most_near_; // largest weight of a cell, in sites
   double most_in_part_;            // in sites

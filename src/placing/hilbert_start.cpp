@@ -39,9 +39,10 @@ std::vector<std::int64_t> weights_before(const comm::Communicator& comm, const D
 class HilbertStart::Implementation {
 public:
   Implementation(const comm::Communicator& comm, const mesh::TileRange& tiles, const BoundaryGuard& guard,
-                 const sizing::SizeField& size, const geometry::Lattice& lattice, double expected, double coarsening)
+                 const sizing::SizeField& size, const geometry::Lattice& lattice, double expected, double coarsening,
+                 const LoweredZones* zones)
       : comm_(comm), tiles_(tiles), lattice_(lattice),
-        sampler_(tiles_.grid, guard, size, lattice_, coarsening), parts_{tiles_, sampler_} {
+        sampler_(tiles_.grid, guard, size, lattice_, coarsening, INFINITY, zones), parts_{tiles_, sampler_} {
     constexpr double few = 1 << 15; // sites whose cells are kept, about half a KiB each
     if (expected <= few)
       kept_.resize(static_cast<std::size_t>(parts_.count()));
@@ -95,9 +96,9 @@ private:
 
 HilbertStart::HilbertStart(const comm::Communicator& comm, const mesh::TileRange& tiles, const BoundaryGuard& guard,
                            const sizing::SizeField& size, const geometry::Lattice& lattice, double expected,
-                           double coarsening)
-    : implementation_(std::make_unique<const Implementation>(comm, tiles, guard, size, lattice, expected, coarsening)) {
-}
+                           double coarsening, const LoweredZones* zones)
+    : implementation_(
+          std::make_unique<const Implementation>(comm, tiles, guard, size, lattice, expected, coarsening, zones)) {}
 HilbertStart::~HilbertStart() = default;
 
 double HilbertStart::wanted() const {

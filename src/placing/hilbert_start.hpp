@@ -5,6 +5,7 @@
 
 #include "mesh/binned_points.hpp"
 #include "mesh/tile_grid.hpp"
+#include "placing/lowered_zones.hpp"
 #include "polygon/boundary_guard.hpp"
 #include "trime/comm/communicator.hpp"
 #include "trime/geometry/lattice.hpp"
@@ -27,8 +28,10 @@ public:
   /// kept in memory
   /// @param coarsening factor for the width of the cells of the integral; with 1 a cell holds a quarter of a site, and
   /// less near the boundary
+  /// @param zones where sites are placed; null: everywhere in the shape
   HilbertStart(const comm::Communicator& comm, const mesh::TileRange& tiles, const polygon::BoundaryGuard& guard,
-               const sizing::SizeField& size, const geometry::Lattice& lattice, double expected, double coarsening = 1);
+               const sizing::SizeField& size, const geometry::Lattice& lattice, double expected, double coarsening = 1,
+               const LoweredZones* zones = nullptr);
   ~HilbertStart();
 
   /// Returns the number of sites that the size field asks for, over all ranks.

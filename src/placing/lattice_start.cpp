@@ -136,8 +136,8 @@ std::int64_t count_of(const std::vector<LatticeRun>& runs) {
 } // namespace
 
 LatticeStart::LatticeStart(const geometry::Boundary& boundary, const BoundaryGuard& guard,
-                           const geometry::Lattice& lattice)
-    : guard_(guard), lattice_(lattice), periods_(boundary.periods) {
+                           const geometry::Lattice& lattice, const LoweredZones* zones)
+    : guard_(guard), zones_(zones), lattice_(lattice), periods_(boundary.periods) {
   origin_ = periods_.any() ? periods_.min : boundary.bounding_box().min;
   along_ = {1, 0};
   double longest = 0;
@@ -180,7 +180,8 @@ bool LatticeStart::is_clear(const mesh::TileGrid& grid, LocalIndex tile, double 
   const geometry::Box box = grid.tile_box(tile);
   const Vec2 middle = lattice_.snap(0.5 * (box.min + box.max));
   const double reach = 0.5 * geometry::length(box.max - box.min) + 2 * margin;
-  return guard_.distance(middle, reach) >= reach && guard_.inside(middle);
+  return guard_.distance(middle, reach) >= reach && guard_.inside(middle) &&
+         !(zones_ && zones_->may_touch(middle, reach));
 }
 
 /// Columns of a periodic lattice are reduced to the first `columns`, so that all images of a site give one position.
@@ -192,7 +193,7 @@ Vec2 LatticeStart::site(const RowLattice& rows, std::int64_t row, std::int64_t c
 
 /// Inside, and not in the strip along the boundary.
 bool LatticeStart::is_free(Vec2 p, double spacing) const {
-  if (!guard_.inside(p))
+  if (!guard_.inside(p) || (zones_ && zones_->hold(p)))
     return false;
   const double free = PlacingRules::lattice_strip * spacing;
   // Where even the lower bound is far enough, no disc is near: one look-up does for nearly all.
@@ -219,7 +220,7 @@ void LatticeStart::add_row(const RowLattice& rows, LatticeRun row, double spacin
   const std::int64_t middle = row.first + sites / 2;
   const Vec2 p = site(rows, row.row, middle);
   const double reach = (static_cast<double>(sites / 2) + 2) * spacing;
-  if (guard_.distance_below(p, reach) < reach) {
+  if (guard_.distance_below(p, reach) < reach || (zones_ && zones_->may_touch(p, reach))) {
     add_row(rows, {row.row, row.first, middle - 1}, spacing, runs);
     add_row(rows, {row.row, middle, row.last}, spacing, runs);
   } else if (guard_.inside(p)) {

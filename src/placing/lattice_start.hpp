@@ -6,6 +6,7 @@
 #include "core/angle.hpp"
 #include "mesh/binned_points.hpp"
 #include "mesh/tile_grid.hpp"
+#include "placing/lowered_zones.hpp"
 #include "polygon/boundary_guard.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/geometry/lattice.hpp"
@@ -74,8 +75,9 @@ struct LatticeRuns {
 /// periods; see fit_to_periods.
 class LatticeStart {
 public:
+  /// @param zones where no sites are placed; null: there are no such zones
   LatticeStart(const geometry::Boundary& boundary, const polygon::BoundaryGuard& guard,
-               const geometry::Lattice& lattice);
+               const geometry::Lattice& lattice, const LoweredZones* zones = nullptr);
 
   /// Returns the sites inside the shape that are at least PlacingRules::lattice_strip spacings away from its boundary,
   /// ordered by tile, row and column. Uses all threads.
@@ -95,6 +97,7 @@ private:
                                   double spacing) const;
 
   const polygon::BoundaryGuard& guard_;
+  const LoweredZones* zones_;
   geometry::Lattice lattice_;
   geometry::Periods periods_;
   /// True means that along_ is the direction of a straight side; in a periodic container, of a straight side along an

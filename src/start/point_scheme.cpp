@@ -212,7 +212,33 @@ PointScheme::First PointScheme::first_of_lattice() {
 PointScheme::First PointScheme::first_of_graded_size() {
   fit_.lower_uniform();
   choose_divisions();
-  return first_of_divisions();
+  std::variant<fitting::StageFit, fitting::TooFewPoints> found = find_last();
+  if (fitting::TooFewPoints* few = std::get_if<fitting::TooFewPoints>(&found))
+    return std::move(*few);
+  fitting::StageFit& fit = std::get<fitting::StageFit>(found);
+  std::optional<fitting::ZonedLattice> lattice = fit_.find_zoned_lattice(fit, expected_points());
+  if (!lattice)
+    return first_of_divisions(std::move(fit));
+  shortage_ = std::move(fit.shortage);
+  return first_of_zoned_lattice(std::move(*lattice));
+}
+
+PointScheme::First PointScheme::first_of_zoned_lattice(fitting::ZonedLattice found) {
+  scheme_ = Scheme::lattice;
+  last_stage_ = 0;
+  Stage& stage = found.stage;
+  const placing::LatticeStart start(given_.given_boundary, *stage.guard, given_.lattice, found.zones.get());
+  const std::int64_t on_lattice = given_.comm.sum(found.runs.count());
+  reason_ = fmt::format("hexagonal lattice, and along the Hilbert curve {:.2g} % of the points in zones where the "
+                        "boundary needs smaller triangles, all points at once: the size is uniform elsewhere",
+                        100 * static_cast<double>(found.in_zones) / static_cast<double>(found.in_zones + on_lattice));
+  fitting::check_point_limit(given_.options, static_cast<double>(on_lattice + found.in_zones + stage.placed_first()));
+  mesh::SiteList sites = sites_along_curve(stage, static_cast<double>(found.in_zones), *found.along_curve);
+  const auto time = given_.timers.scope("start");
+  const mesh::SiteList lattice = start.sites(found.runs);
+  sites.insert(sites.end(), lattice.begin(), lattice.end());
+  fit_.place_sites(stage, std::move(sites));
+  return std::move(stage);
 }
 
 /// Returns the runs of this rank, after all of them are distributed evenly: the density gave only an estimate of their
@@ -244,19 +270,27 @@ PointScheme::First PointScheme::first_of_insertion() {
                     points_now_ / expected_points());
   }
   const double inner = points_now_ - static_cast<double>(stage.placed_first());
-  place_along_curve(stage, inner, *along_curve(stage, inner, 1));
+  fit_.place_sites(stage, sites_along_curve(stage, inner, *along_curve(stage, inner, 1)));
   return stage;
 }
 
 /// The factor is fitted for the final mesh, by a coarse integral. Then the coarsest start is taken that still has as
 /// many sites inside as on the boundary: a boundary full of corners does not become coarser with the size.
 PointScheme::First PointScheme::first_of_divisions() {
-  std::variant<fitting::StageFit, fitting::TooFewPoints> found = fit_.find_density(
-      expected_points(),
-      last_stage_ == 0 ? 1 : std::fmax(fitting::LayoutRules::coarse_integral, std::ldexp(1.0, last_stage_)));
+  std::variant<fitting::StageFit, fitting::TooFewPoints> found = find_last();
   if (fitting::TooFewPoints* few = std::get_if<fitting::TooFewPoints>(&found))
     return std::move(*few);
-  fitting::StageFit& fit = std::get<fitting::StageFit>(found);
+  return first_of_divisions(std::move(std::get<fitting::StageFit>(found)));
+}
+
+/// The last stage of the divisions, by a coarse integral if there are several.
+std::variant<fitting::StageFit, fitting::TooFewPoints> PointScheme::find_last() {
+  return fit_.find_density(
+      expected_points(),
+      last_stage_ == 0 ? 1 : std::fmax(fitting::LayoutRules::coarse_integral, std::ldexp(1.0, last_stage_)));
+}
+
+PointScheme::First PointScheme::first_of_divisions(fitting::StageFit fit) {
   shortage_ = std::move(fit.shortage);
   const double points = fit.inner + static_cast<double>(fit.stage.placed_first());
   fitting::check_point_limit(given_.options, points);
@@ -283,7 +317,7 @@ PointScheme::First PointScheme::first_of_divisions() {
   if (last_stage_ == 0 && given_.options.points && shortage_.empty())
     inner = expected_points() - static_cast<double>(stage.placed_first());
   laid_last_ = std::move(fit.stage);
-  place_along_curve(stage, inner, *start);
+  fit_.place_sites(stage, sites_along_curve(stage, inner, *start));
   return stage;
 }
 
@@ -313,7 +347,8 @@ std::unique_ptr<const placing::HilbertStart> PointScheme::along_curve(const Stag
                                                        *stage.size, given_.lattice, expected, coarsening);
 }
 
-void PointScheme::place_along_curve(Stage& stage, double inner, const placing::HilbertStart& start) const {
+mesh::SiteList PointScheme::sites_along_curve(const Stage& stage, double inner,
+                                              const placing::HilbertStart& start) const {
   const auto time = given_.timers.scope("start");
   const auto wanted = std::max<std::int64_t>(0, std::llround(inner));
   mesh::SiteList placed = start.sites(wanted, options_.seed);
@@ -330,7 +365,7 @@ void PointScheme::place_along_curve(Stage& stage, double inner, const placing::H
       trim(given_.comm, stage, wanted, placed);
     }
   }
-  fit_.place_sites(stage, std::move(placed));
+  return placed;
 }
 
 Stage PointScheme::last_from(Stage first) {

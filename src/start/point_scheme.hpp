@@ -107,7 +107,10 @@ private:
   First first_of_graded_size();
   void share_runs(const placing::LatticeStart& start, fitting::LatticeFit& fit) const;
   First first_of_insertion();
+  First first_of_zoned_lattice(fitting::ZonedLattice found);
   First first_of_divisions();
+  First first_of_divisions(fitting::StageFit fit);
+  std::variant<fitting::StageFit, fitting::TooFewPoints> find_last();
   First first_of_old_mesh();
   std::variant<fitting::StageFit, fitting::TooFewPoints> lay_last();
   std::string reason_of_divisions() const;
@@ -115,7 +118,7 @@ private:
   sites::Stage lay_insertion();
   std::unique_ptr<const placing::HilbertStart> along_curve(const sites::Stage& stage, double expected,
                                                            double coarsening) const;
-  void place_along_curve(sites::Stage& stage, double inner, const placing::HilbertStart& start) const;
+  mesh::SiteList sites_along_curve(const sites::Stage& stage, double inner, const placing::HilbertStart& start) const;
   /// Return the next stage after `previous`.
   sites::Stage divide(const sites::Stage& previous);
   sites::Stage insert(const sites::Stage& previous);

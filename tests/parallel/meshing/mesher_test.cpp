@@ -130,6 +130,24 @@ TEST(Mesher, SameBitsOnAnyRanksAndThreadsFromALattice) {
   expect_same_everywhere({"container", whole_container(), with_points(400, Start::lattice)});
 }
 
+/// The holes are 0.008 apart. Elsewhere the size is 0.028 with 1500 points.
+RegionShape near_holes() {
+  return RegionShape(
+      {Part::circle("a", {0.376, 0.5}, 0.12, unit_frame()), Part::circle("b", {0.624, 0.5}, 0.12, unit_frame())},
+      "difference(domain, a, b)", unit_frame());
+}
+
+TEST(Mesher, ANarrowPlaceLeavesTheLatticeElsewhere) {
+  const Case holes{"near holes", near_holes(), with_points(1500)};
+  expect_same_everywhere(holes);
+  const MeshResult result = run(comm::Communicator::world(), holes);
+  EXPECT_TRUE(result.start_reason.starts_with("hexagonal lattice, and along the Hilbert curve")) << result.start_reason;
+  EXPECT_LT(result.quality.alpha.mean, 1.015) << "1.034 without the lattice";
+  const RegionShape shape = triangle({0.05, 0.05}, {0.95, 0.05}, {0.5, 0.12}); // narrow nearly everywhere
+  const MeshResult graded = run(comm::Communicator::world(), {"narrow", shape, with_points(400)});
+  EXPECT_FALSE(graded.start_reason.starts_with("hexagonal lattice, and")) << graded.start_reason;
+}
+
 TEST(Mesher, SameBitsOnAnyRanksAndThreadsFromHilbertQuantiles) {
   expect_same_everywhere({"square", square(), with_points(800, Start::hilbert)}, {1, 2, 3});
   expect_same_everywhere({"disc with hole", disc_with_hole(), with_points(700, Start::hilbert)});
