@@ -384,6 +384,15 @@ std::vector<Vec2> those_inside(const Boundary& boundary, const sizing::SizeField
 
 } // namespace
 
+void remember_at_vertices(const Boundary& boundary, sizing::RememberedSize& size) {
+  std::vector<Vec2> vertices;
+  vertices.reserve(static_cast<std::size_t>(polygon::piece_count(boundary)));
+  for (const geometry::Loop& loop : boundary.loops)
+    for (const geometry::Piece& piece : loop.pieces)
+      vertices.push_back(piece.start);
+  size.remember(vertices);
+}
+
 std::unique_ptr<const Boundary> thinned(const Boundary& boundary, const sizing::SizeField& size,
                                         const geometry::Lattice& lattice, std::span<const Vec2> inside) {
   if (boundary.periods.any())
@@ -392,11 +401,12 @@ std::unique_ptr<const Boundary> thinned(const Boundary& boundary, const sizing::
                              {GeneraliseRules::thinned_share, Thinning::dense});
 }
 
-std::unique_ptr<Generalised> generalise(const Boundary& boundary, const sizing::SizeField& size,
+std::unique_ptr<Generalised> generalise(const Boundary& boundary, const sizing::SizeField& given_size,
                                         const geometry::Lattice& lattice, const Choice& choice,
                                         std::span<const Vec2> inside) {
   if (boundary.periods.any() || boundary.loops.empty())
     return nullptr;
+  sizing::RememberedSize size(given_size);
   const std::vector<Vec2> held = those_inside(boundary, size, lattice, inside);
   std::unique_ptr<Generalised> result;
   const auto follow_with = [&result](std::unique_ptr<Generalised> next) {
@@ -412,6 +422,7 @@ std::unique_ptr<Generalised> generalise(const Boundary& boundary, const sizing::
   const auto pass = [&](int most) { // what was moved apart may leave others narrow
     bool thins = true;              // until narrow parts have changed
     for (int k = 0; k < most; ++k) {
+      remember_at_vertices(latest(), size);
       const bool is_thinner = thins && follow_with(with_thin_runs(latest(), size, lattice, held));
       if (k > 0 && thins && !is_thinner)
         break; // the pass would see the same curves
