@@ -401,13 +401,13 @@ std::unique_ptr<const Boundary> thinned(const Boundary& boundary, const sizing::
                              {GeneraliseRules::thinned_share, Thinning::dense});
 }
 
-std::unique_ptr<Generalised> generalise(const Boundary& boundary, const sizing::SizeField& given_size,
+std::unique_ptr<Generalised> generalise(const Boundary& boundary, const sizing::SizeField& size,
                                         const geometry::Lattice& lattice, const Choice& choice,
                                         std::span<const Vec2> inside) {
   if (boundary.periods.any() || boundary.loops.empty())
     return nullptr;
-  sizing::RememberedSize size(given_size);
-  const std::vector<Vec2> held = those_inside(boundary, size, lattice, inside);
+  sizing::RememberedSize known(size);
+  const std::vector<Vec2> held = those_inside(boundary, known, lattice, inside);
   std::unique_ptr<Generalised> result;
   const auto follow_with = [&result](std::unique_ptr<Generalised> next) {
     if (next && result)
@@ -422,11 +422,11 @@ std::unique_ptr<Generalised> generalise(const Boundary& boundary, const sizing::
   const auto pass = [&](int most) { // what was moved apart may leave others narrow
     bool thins = true;              // until narrow parts have changed
     for (int k = 0; k < most; ++k) {
-      remember_at_vertices(latest(), size);
-      const bool is_thinner = thins && follow_with(with_thin_runs(latest(), size, lattice, held));
+      remember_at_vertices(latest(), known);
+      const bool is_thinner = thins && follow_with(with_thin_runs(latest(), known, lattice, held));
       if (k > 0 && thins && !is_thinner)
         break; // the pass would see the same curves
-      const bool any = follow_with(pass_over(latest(), size, lattice, choice, held, corners));
+      const bool any = follow_with(pass_over(latest(), known, lattice, choice, held, corners));
       corners.is_first_pass = false;
       if (!any && !is_thinner)
         break;
@@ -434,7 +434,7 @@ std::unique_ptr<Generalised> generalise(const Boundary& boundary, const sizing::
     }
   };
   pass(GeneraliseRules::most_passes);
-  if (follow_with(smoothed(latest(), size, lattice, held)))
+  if (follow_with(smoothed(latest(), known, lattice, held)))
     pass(GeneraliseRules::late_passes);
   if (result)
     result->counts.held = corners.held;
