@@ -81,22 +81,31 @@ public:
   }
 
 private:
+  /// An estimate of the factor, and by how much crowding corners have raised it.
+  struct Estimate {
+    double factor, crowding;
+  };
   /// @brief A factor not far from the result, without layouts. From above, since large factors make few points.
   double first_factor(double uniform, double factor) {
     const auto time = context_.timers.scope("start");
     CountEstimate estimate(context_, points_, FitRules::reference_spacing * uniform,
                            std::fmax(rough_, FitRules::reference_coarsening));
-    factor = estimated_factor(estimate, factor, true);
+    const Estimate crowded = estimated_factor(estimate, factor, true);
+    factor = crowded.factor;
     if (estimate.use_strides(factor)) {
-      factor = estimated_factor(estimate, factor, false);
-      factor *= larger_for_limits(estimate.boundary_share(factor));
+      factor = estimated_factor(estimate, factor, false).factor;
+      factor *= larger_for_limits(FitRules::limits_on_ragged, estimate.boundary_share(factor));
+    } else if (crowded.crowding > 1 && generalises(context_)) { // most of these corners will go
+      factor /= crowded.crowding;
+      factor *=
+          std::fmin(crowded.crowding, larger_for_limits(FitRules::limits_on_cornered, estimate.boundary_share(factor)));
     }
     search_.expect(FitRules::uncrowded_power);
     return factor;
   }
 
   /// Collective. @param may_crowd corners may raise the result
-  double estimated_factor(CountEstimate& estimate, double factor, bool may_crowd) {
+  Estimate estimated_factor(CountEstimate& estimate, double factor, bool may_crowd) {
     search_.expect(FitRules::uncrowded_power);
     for (int round = 0; round < estimate_rounds; ++round) {
       const std::optional<double> points = estimate.points(factor);
@@ -105,12 +114,10 @@ private:
       const double guess = search_.next(factor, *points), crowding = may_crowd ? estimate.crowding(guess) : 1;
       const double change = std::fabs(guess / factor - 1);
       factor = guess;
-      if (change < (crowding > 1 ? crowded_precision : estimate_precision)) {
-        factor *= crowding;
-        break;
-      }
+      if (change < (crowding > 1 ? crowded_precision : estimate_precision))
+        return {factor * crowding, crowding};
     }
-    return factor;
+    return {factor, 1};
   }
 
   /// @brief The trial as it is if its sites are nearly as many as wanted, or with a size so little larger or smaller
@@ -147,7 +154,7 @@ private:
       const bool first = trials_.limit_rounds() == 0;
       if (laid.curves) { // a trial without all of these limits says nothing
         search_.expect(crowded_power);
-        return {factor, trials_.run(factor)};
+        return {factor, trials_.run_from(std::move(laid))};
       }
       search_.expect(crowded ? crowded_power : FitRules::uncrowded_power); // trials with other limits say nothing
       if (!trials_.find_limits(laid))
@@ -243,7 +250,7 @@ private:
   double plain_factor(double uniform, double factor) {
     CountEstimate estimate(context_, points_, FitRules::reference_spacing * uniform,
                            std::fmax(rough_, FitRules::reference_coarsening));
-    return estimated_factor(estimate, factor, false);
+    return estimated_factor(estimate, factor, false).factor;
   }
 
   double coarsest() const { return FitRules::coarsest_partition * plain_; }

@@ -10,9 +10,10 @@
 
 namespace trime::fitting {
 
-/// Returns by how much an estimate for a ragged boundary is raised. @param share of the sites that lie on the boundary
-inline double larger_for_limits(double share) {
-  return 1 + FitRules::limits_on_ragged * share * share;
+/// Returns by how much an estimate is raised for a boundary that will be simplified. @param share of the sites that lie
+/// on the boundary
+inline double larger_for_limits(double weight, double share) {
+  return 1 + weight * share * share;
 }
 
 /// @brief Assumes that the number of points is a power of the factor, which follows from the last two trials. It uses
@@ -30,9 +31,11 @@ public:
   /// Returns the factor to try next, at most 4 times larger or smaller.
   double next(double factor, double points) {
     const double root = points > 0 ? 1 / std::sqrt(points) : 0;
-    if (last_factor_ > 0 && std::fabs(factor - last_factor_) > apart * factor && root > 0 && last_root_ > 0)
-      slope_ =
-          std::clamp((root - last_root_) / (factor - last_factor_) * (factor / root), flattest_slope, steepest_slope);
+    if (last_factor_ > 0 && std::fabs(factor - last_factor_) > apart * factor && root > 0 && last_root_ > 0) {
+      const double slope = (root - last_root_) / (factor - last_factor_) * (factor / root);
+      if (slope > 0) // else other curves have more points at a larger size, by chance
+        slope_ = std::clamp(slope, flattest_slope, steepest_slope);
+    }
     last_factor_ = factor;
     last_root_ = root;
     if (!(root > 0))

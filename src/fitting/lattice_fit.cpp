@@ -182,7 +182,7 @@ std::variant<LatticeFit, TooFewPoints> fit_points(const LayoutContext& context, 
     const double spacing = fit.runs.spacing;
     if (is_of_no_use(context, fit.stage)) {
       const double share = static_cast<double>(fit.stage.placed_first()) / expected;
-      fit.fitted.factor = larger_for_limits(share) * spacing / relative;
+      fit.fitted.factor = larger_for_limits(FitRules::limits_on_ragged, share) * spacing / relative;
       return fit;
     }
     const bool comparable = spacing < comparable_spacing * laid; // else so few sites are wanted that it means nothing

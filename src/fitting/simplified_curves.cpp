@@ -8,6 +8,7 @@
 #include "fitting/rules.hpp"
 #include "generalise/generalised_bytes.hpp"
 #include "sizing/lowered_size.hpp"
+#include "sizing/remembered_size.hpp"
 #include "trime/geometry/lattice.hpp"
 
 #include <algorithm>
@@ -117,7 +118,9 @@ void simplify_curves(const LayoutContext& context, const sizing::SizeField& aske
   if (serve(curves, factor))
     return;
   const Boundary& given = context.fixed.cornered_boundary();
-  const sizing::ScaledSize size = generalised_size(context, asked);
+  sizing::RememberedSize known(asked); // both steps ask for the size at each vertex that is given
+  const sizing::ScaledSize size = generalised_size(context, known);
+  generalise::remember_at_vertices(given, known);
   thin_ahead(context, size, factor, curves);
   curves.factor = factor;
   curves.samples = nullptr;
@@ -127,7 +130,7 @@ void simplify_curves(const LayoutContext& context, const sizing::SizeField& aske
     found = std::make_unique<generalise::Generalised>(generalise::Generalised{*curves.thinned, {}});
   if (found && !curves.given)
     curves.given = std::make_shared<geometry::PieceTree>(given);
-  found = brought_near(context, asked, std::move(found), curves);
+  found = brought_near(context, known, std::move(found), curves);
   if (found && curves.thinned)
     found->counts.thinned += polygon::piece_count(given) - polygon::piece_count(*curves.thinned);
   if (found)

@@ -87,15 +87,11 @@ SizeTrial SizeTrials::count(Stage laid, double coarsening) const {
   return trial;
 }
 
-Stage SizeTrials::lay_with_limits(double factor) {
-  Stage laid = lay(factor);
+Stage SizeTrials::with_limits(Stage laid) {
+  const double factor = fitted_.factor;
   while (find_limits(laid))
     laid = lay(factor);
   return laid;
-}
-
-SizeTrial SizeTrials::run(double factor) {
-  return count(lay_with_limits(factor), coarsening_);
 }
 
 /// Calls sample(p) for the start and the middle of some pieces of the boundary, spread evenly over them.

@@ -9,6 +9,7 @@
 #include "fitting/stage_fit.hpp"
 #include "sizing/lowered_size.hpp"
 
+#include <utility>
 #include <vector>
 
 namespace trime::fitting {
@@ -42,12 +43,14 @@ public:
   /// @param laid the last result of lay()
   bool find_limits(const sites::Stage& laid);
   /// Lays out boundary sites within all limits that the factor needs.
-  sites::Stage lay_with_limits(double factor);
+  sites::Stage lay_with_limits(double factor) { return with_limits(lay(factor)); }
   /// Counts the points of a layout; if there are far too many, the number is not exact. @param laid the last result of
   /// lay() @param coarsening factor on the width of the cells of the integral
   SizeTrial count(sites::Stage laid, double coarsening) const;
   /// Lays out the boundary with all limits that the factor needs, and counts the points.
-  SizeTrial run(double factor);
+  SizeTrial run(double factor) { return run_from(lay(factor)); }
+  /// The same for the factor of a layout. @param laid the last result of lay()
+  SizeTrial run_from(sites::Stage laid) { return count(with_limits(std::move(laid)), coarsening_); }
 
   /// @brief Makes all further trials use this simplified boundary and its limits, because sizes that are smaller than
   /// this one need no others.
@@ -62,6 +65,8 @@ public:
 
 private:
   void forget_limits(double factor);
+  /// Lays the stage out again while the factor needs more limits. @param laid the last result of lay()
+  sites::Stage with_limits(sites::Stage laid);
 
   const LayoutContext& context_;
   double points_, coarsening_;

@@ -384,6 +384,15 @@ std::vector<Vec2> those_inside(const Boundary& boundary, const sizing::SizeField
 
 } // namespace
 
+void remember_at_vertices(const Boundary& boundary, sizing::RememberedSize& size) {
+  std::vector<Vec2> vertices;
+  vertices.reserve(static_cast<std::size_t>(polygon::piece_count(boundary)));
+  for (const geometry::Loop& loop : boundary.loops)
+    for (const geometry::Piece& piece : loop.pieces)
+      vertices.push_back(piece.start);
+  size.remember(vertices);
+}
+
 std::unique_ptr<const Boundary> thinned(const Boundary& boundary, const sizing::SizeField& size,
                                         const geometry::Lattice& lattice, std::span<const Vec2> inside) {
   if (boundary.periods.any())
@@ -397,7 +406,8 @@ std::unique_ptr<Generalised> generalise(const Boundary& boundary, const sizing::
                                         std::span<const Vec2> inside) {
   if (boundary.periods.any() || boundary.loops.empty())
     return nullptr;
-  const std::vector<Vec2> held = those_inside(boundary, size, lattice, inside);
+  sizing::RememberedSize known(size);
+  const std::vector<Vec2> held = those_inside(boundary, known, lattice, inside);
   std::unique_ptr<Generalised> result;
   const auto follow_with = [&result](std::unique_ptr<Generalised> next) {
     if (next && result)
@@ -412,10 +422,11 @@ std::unique_ptr<Generalised> generalise(const Boundary& boundary, const sizing::
   const auto pass = [&](int most) { // what was moved apart may leave others narrow
     bool thins = true;              // until narrow parts have changed
     for (int k = 0; k < most; ++k) {
-      const bool is_thinner = thins && follow_with(with_thin_runs(latest(), size, lattice, held));
+      remember_at_vertices(latest(), known);
+      const bool is_thinner = thins && follow_with(with_thin_runs(latest(), known, lattice, held));
       if (k > 0 && thins && !is_thinner)
         break; // the pass would see the same curves
-      const bool any = follow_with(pass_over(latest(), size, lattice, choice, held, corners));
+      const bool any = follow_with(pass_over(latest(), known, lattice, choice, held, corners));
       corners.is_first_pass = false;
       if (!any && !is_thinner)
         break;
@@ -423,7 +434,7 @@ std::unique_ptr<Generalised> generalise(const Boundary& boundary, const sizing::
     }
   };
   pass(GeneraliseRules::most_passes);
-  if (follow_with(smoothed(latest(), size, lattice, held)))
+  if (follow_with(smoothed(latest(), known, lattice, held)))
     pass(GeneraliseRules::late_passes);
   if (result)
     result->counts.held = corners.held;

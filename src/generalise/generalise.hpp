@@ -4,6 +4,7 @@
 #pragma once
 
 #include "polygon/polygon.hpp"
+#include "sizing/remembered_size.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/geometry/lattice.hpp"
 #include "trime/sizing/size_field.hpp"
@@ -32,6 +33,10 @@ struct Generalised {
   polygon::Simplification counts;
 };
 
+/// Computes the sizes at the vertices that are not known yet, with all threads. Local. Rethrows what the field throws.
+/// @pre no other thread uses `size`
+void remember_at_vertices(const geometry::Boundary& boundary, sizing::RememberedSize& size);
+
 /// @brief Returns the boundary with fewer vertices in loops that have far too many: vertices much closer together than
 /// the size are removed. Returns null if there are no such loops, and in a periodic container. Cost: O(n log n).
 /// @param size size field with the target edge length h
@@ -52,7 +57,7 @@ std::unique_ptr<const geometry::Boundary> thinned(const geometry::Boundary& boun
 /// Narrow parts of the outside are kept and their sides moved apart, or they are filled. Curves do not cross, because
 /// all triangles keep their orientation. Then ragged stretches are smoothed, see curve_flow.hpp; a triangulation of the
 /// result shows again that curves do not cross. A periodic boundary is returned unchanged. Deterministic; uses one
-/// thread. Cost: O(n log n) for n pieces.
+/// thread, but asks for the sizes at the vertices with all threads. Cost: O(n log n) for n pieces.
 /// @param size size field with the target edge length h
 /// @param inside lattice points that must stay inside: a narrow part with such a point is not cut, and no curve moves
 /// over one. Points outside of the given boundary are ignored

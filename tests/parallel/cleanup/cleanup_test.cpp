@@ -181,7 +181,7 @@ TEST(Cleanup, KeepsCornersOnWhichHalvingPutsSites) {
   };
   const comm::Communicator world = comm::Communicator::world();
   const sizing::UniformSize uniform;
-  for (const Curve& curve : {Curve{150, 29, 400}, Curve{150, 13, 800}, Curve{300, 33, 800}}) {
+  for (const Curve& curve : {Curve{150, 36, 400}, Curve{150, 13, 800}, Curve{300, 30, 800}}) {
     SCOPED_TRACE(fmt::format("{} vertices, seed {}", curve.vertices, curve.seed));
     MeshOptions options;
     options.points = curve.points;

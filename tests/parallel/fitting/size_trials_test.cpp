@@ -77,7 +77,7 @@ TEST(SizeTrials, AreTheSameAfterOthersWithOtherCurves) {
   const SizeTrial first = trial_after(setting, {});
   ASSERT_TRUE(first.fitted.curves.found);
   ASSERT_FALSE(first.fitted.limits.empty());
-  for (const std::vector<double>& others : {std::vector<double>{0.07}, {0.05}, {0.12, 0.05}}) {
+  for (const std::vector<double>& others : {std::vector<double>{0.07}, {0.04}, {0.12, 0.04}}) {
     const SizeTrial trial = trial_after(setting, others);
     EXPECT_EQ(trial.points, first.points);
     EXPECT_EQ(trial.fitted.limits.size(), first.fitted.limits.size());

@@ -22,6 +22,15 @@ TEST(FactorSearch, LearnsAnotherPower) {
   EXPECT_NEAR(points(factor) / 2e4, 1, 1e-3);
 }
 
+/// Curves that are simplified again may have more points at a larger size, by chance. The next step still goes by the
+/// power of the steps before.
+TEST(FactorSearch, LearnsNothingFromPointsThatGrowWithTheSize) {
+  FactorSearch search(3000);
+  search.expect(-2);
+  search.next(1.5, 2700);
+  EXPECT_NEAR(search.next(1.6, 2750), 1.6 * std::sqrt(2750.0 / 3000), 1e-12);
+}
+
 TEST(FactorSearch, StepsStayBounded) {
   FactorSearch search(1e6);
   EXPECT_EQ(search.next(8, 0), 2);  // no points at all
