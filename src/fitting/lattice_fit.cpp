@@ -129,6 +129,13 @@ placing::LatticeRuns fitting_runs(const LayoutContext& context, const Stage& sta
 
 namespace {
 
+/// The runs of a lattice in the whole shape that fills up the number of points.
+placing::LatticeRuns runs_everywhere(const LayoutContext& context, const Stage& stage) {
+  return fitting_runs(context, stage, placing::LatticeStart(context.given_boundary, *stage.guard, context.lattice),
+                      stage.size->size({}),
+                      *context.options.points - reserved_for_curves(context) - stage.placed_first());
+}
+
 /// @param relative size
 LatticeFit fit_edge_length(const LayoutContext& context, double relative) {
   const double h = *context.options.edge_length;
@@ -176,9 +183,7 @@ std::variant<LatticeFit, TooFewPoints> fit_points(const LayoutContext& context, 
       fit.shortage = fmt::format("with min_size = {:g} no more points fit", *options.min_size);
       return fit;
     }
-    fit.runs = fitting_runs(context, fit.stage,
-                            placing::LatticeStart(context.given_boundary, *fit.stage.guard, context.lattice), laid,
-                            *options.points - reserved_for_curves(context) - fit.stage.placed_first());
+    fit.runs = runs_everywhere(context, fit.stage);
     const double spacing = fit.runs.spacing;
     if (is_of_no_use(context, fit.stage)) {
       const double share = static_cast<double>(fit.stage.placed_first()) / expected;

@@ -49,7 +49,8 @@ public:
   SizeTrial count(sites::Stage laid, double coarsening) const;
   /// Lays out the boundary with all limits that the factor needs, and counts the points.
   SizeTrial run(double factor) { return run_from(lay(factor)); }
-  /// The same for the factor of a layout. @param laid the last result of lay()
+  /// Lays out the boundary with all limits that the factor of a layout needs, and counts the points. @param laid the
+  /// last result of lay()
   SizeTrial run_from(sites::Stage laid) { return count(with_limits(std::move(laid)), coarsening_); }
 
   /// @brief Makes all further trials use this simplified boundary and its limits, because sizes that are smaller than

@@ -17,7 +17,7 @@ public:
   explicit RememberedSize(const SizeField& field) : field_(field) {}
   RememberedSize(const SizeField&&) = delete;
 
-  /// @brief Computes the values at those places that are not known yet, and keeps them, also if they are no valid
+  /// @brief Computes the values at those places that are not known yet, and keeps them, also if they are not valid
   /// sizes. Uses all threads; no other thread may ask for a size at the same time. Does nothing for a uniform field.
   /// Memory: up to 128 bytes a place. Rethrows what the field throws; then no value of this call is kept.
   void remember(std::span<const geometry::Vec2> places);
