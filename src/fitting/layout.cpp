@@ -45,7 +45,12 @@ constexpr double steep_places_per_point = 6;
 constexpr double few_steep_places = 4096;
 
 // [places] Largest number if the number of points is not given.
-constexpr double most_steep_places = 1 << 24;
+constexpr double all_steep_places = 1 << 24;
+
+// [1] If an edge length is given, the number of points is only an estimate, and this many times as many places may be
+// limited. Without this bound, an edge length of a quarter of a shape with a slit took over 500 s, at factors far from
+// the result.
+constexpr double unknown_points = 16;
 
 using boundary::BoundaryRefiner;
 using boundary::BoundaryRules;
@@ -94,6 +99,16 @@ std::unique_ptr<SiteState> make_state(const LayoutContext& context, const Bounda
                                                        periods});
 }
 
+/// Returns how many steep places are looked for. @param points about the number of points of the mesh
+double most_steep_places(const FitOptions& options, double points) {
+  const auto places = [&](double n) {
+    return std::fmax(few_steep_places, std::fmax(1, steep_places_per_point * *options.gradation) * n);
+  };
+  if (options.points)
+    return places(static_cast<double>(*options.points));
+  return options.absolute ? all_steep_places : std::fmin(all_steep_places, unknown_points * places(points));
+}
+
 /// Looks for places where the size of this factor is too steep, unless they are known for about the same factor.
 /// Collective.
 void find_steep_places(const LayoutContext& context, const Stage& stage, FittedSize& fitted) {
@@ -110,13 +125,10 @@ void find_steep_places(const LayoutContext& context, const Stage& stage, FittedS
     if (!steep.sizes)
       steep.sizes = std::make_shared<sizing::SteepSizes>(context.comm, context.relative_size, context.given_boundary,
                                                          context.lattice, std::fmax(steep_samples, 0.5 * points));
-    const double most_places = context.options.points
-                                   ? std::fmax(few_steep_places, std::fmax(1, steep_places_per_point * *gradation) *
-                                                                     static_cast<double>(*context.options.points))
-                                   : most_steep_places;
-    sizing::SteepSizes::Limits found = steep.sizes->limits(asked, *gradation, most_places);
+    sizing::SteepSizes::Limits found =
+        steep.sizes->limits(asked, *gradation, most_steep_places(context.options, points));
     steep.is_full = found.is_full;
-    steep.is_capped = found.is_capped;
+    steep.is_capped = found.is_capped || (found.is_full && !context.options.points);
     steep.limits = std::move(found.limits);
     steep.gradation = found.gradation;
     steep.steepest = found.steepest;
