@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace trime::fitting {
 namespace {
@@ -17,18 +18,33 @@ constexpr int most_layouts = 6;
 // [1] If the spacing differs from the uniform size by a smaller share, the boundary is not laid out again.
 constexpr double same_spacing = 0.02;
 
+// [1] If they differ by a larger share, so few sites are on the lattice that its spacing says nothing about the size.
+constexpr double other_spacing = 0.3;
+
+// [sites inside] If a larger share is missing, since the lattice loses whole rows at a time, there is no lattice. A
+// start from coarse to fine inserts sites if as many are missing.
+constexpr double largest_shortage = 0.01;
+
 // [sites inside] If the zones have a larger share, sites are placed along the Hilbert curve everywhere, from coarse to
 // fine. Measured on coasts, grains and 11 wavy interfaces: with smaller shares the mean of alpha
 // was always smaller with a lattice; with 0.44 it was smaller in two of three cases.
 constexpr double largest_zones = 0.4;
 
-void scale(FittedSize& fitted, double factor) {
+/// Lays out the boundary at a fitted size times a number, and with the limits that it then needs.
+sites::Stage lay_scaled(const LayoutContext& context, FittedSize& fitted, double factor, double expected) {
   fitted.factor *= factor;
   for (sizing::SizeLimit& limit : fitted.limits)
-    limit.size *= factor;
+    limit.size = std::fmax(context.options.least_lowered, factor * limit.size);
+  sites::Stage stage = lay_stage(context, fitted, 1, expected);
+  const std::vector<sizing::SizeLimit> more = further_limits(context, stage);
+  if (more.empty())
+    return stage;
+  fitted.limits.insert(fitted.limits.end(), more.begin(), more.end());
+  return lay_stage(context, fitted, 1, expected);
 }
 
-/// Finds the sites of a stage. @param wanted number of sites inside @return nothing if the zones have too large a share
+/// @brief Finds the sites of a stage. @param wanted number of sites inside
+/// @return nothing if the zones have too large a share, or too few sites fit
 std::optional<ZonedLattice> fit_to(const LayoutContext& context, const sites::Stage& stage, double wanted) {
   const double h = stage.asked_size().size({});
   const mesh::TileRange tiles = placing::own_share(stage);
@@ -45,6 +61,9 @@ std::optional<ZonedLattice> fit_to(const LayoutContext& context, const sites::St
   const placing::LatticeStart lattice(context.given_boundary, *stage.guard, context.lattice, found.zones.get());
   found.runs = context.options.points ? fitting_runs(context, stage, lattice, h, std::llround(wanted) - found.in_zones)
                                       : lattice.runs(tiles, h);
+  const double missing = wanted - static_cast<double>(found.in_zones + context.comm.sum(found.runs.count()));
+  if (context.options.points && missing > largest_shortage * wanted)
+    return std::nullopt;
   return found;
 }
 
@@ -52,7 +71,7 @@ std::optional<ZonedLattice> fit_to(const LayoutContext& context, const sites::St
 
 std::optional<ZonedLattice> fit_zoned_lattice(const LayoutContext& context, const FittedSize& fitted, StageFit& fit,
                                               double expected) {
-  if (!fit.stage.lowered_size || fit.stage.raised_size || fit.stage.limited_size)
+  if (!context.relative_size.is_uniform() || !fit.stage.lowered_size || fit.stage.raised_size || fit.stage.limited_size)
     return std::nullopt;
   fit.stage = lay_again(context, std::move(fit.stage), expected);
   std::optional<sites::Stage> laid_again;
@@ -71,10 +90,9 @@ std::optional<ZonedLattice> fit_zoned_lattice(const LayoutContext& context, cons
       found->fitted = std::move(size);
       return found;
     }
-    if (round == most_layouts)
+    if (round == most_layouts || !(std::fabs(ratio - 1) < other_spacing))
       return std::nullopt;
-    scale(size, std::sqrt(ratio));
-    laid_again = lay_stage(context, size, 1, expected);
+    laid_again = lay_scaled(context, size, std::sqrt(ratio), expected);
     if (!laid_again->lowered_size)
       return std::nullopt;
   }

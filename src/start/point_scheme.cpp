@@ -231,7 +231,8 @@ PointScheme::First PointScheme::first_of_zoned_lattice(fitting::ZonedLattice fou
   const std::int64_t on_lattice = given_.comm.sum(found.runs.count());
   reason_ = fmt::format("hexagonal lattice, and along the Hilbert curve {:.2g} % of the points in zones where the "
                         "boundary needs smaller triangles, all points at once: the size is uniform elsewhere",
-                        100 * static_cast<double>(found.in_zones) / static_cast<double>(found.in_zones + on_lattice));
+                        100 * static_cast<double>(found.in_zones) /
+                            std::fmax(1, static_cast<double>(found.in_zones + on_lattice)));
   fitting::check_point_limit(given_.options, static_cast<double>(on_lattice + found.in_zones + stage.placed_first()));
   mesh::SiteList sites = sites_along_curve(stage, static_cast<double>(found.in_zones), *found.along_curve);
   const auto time = given_.timers.scope("start");

@@ -143,6 +143,9 @@ TEST(Mesher, ANarrowPlaceLeavesTheLatticeElsewhere) {
   const MeshResult result = run(comm::Communicator::world(), holes);
   EXPECT_TRUE(result.start_reason.starts_with("hexagonal lattice, and along the Hilbert curve")) << result.start_reason;
   EXPECT_LT(result.quality.alpha.mean, 1.015) << "1.034 without the lattice";
+  for (const GlobalId points : {337, 559, 744, 892, 1200, 3439}) // whole rows of a lattice do not fit some of these
+    EXPECT_GE(run(comm::Communicator::world(), {"near holes", near_holes(), with_points(points)}).mesh.point_slab.total,
+              0.98 * static_cast<double>(points));
   const RegionShape shape = triangle({0.05, 0.05}, {0.95, 0.05}, {0.5, 0.12}); // narrow nearly everywhere
   const MeshResult graded = run(comm::Communicator::world(), {"narrow", shape, with_points(400)});
   EXPECT_FALSE(graded.start_reason.starts_with("hexagonal lattice, and")) << graded.start_reason;

@@ -87,5 +87,16 @@ TEST(SteepSize, NarrowValleysAreNotLookedIntoToTheirGround) {
   EXPECT_LT(narrow.asked(), 20'000'000); // 6e8 where trials with far too many sites are counted to the end
 }
 
+TEST(SteepSize, AnEdgeLengthBoundsThePlacesThatAreFollowed) {
+  const Valleys narrow({50, 0}, 1e-7);
+  const shape::RegionShape bar({Part::rectangle("bar", {{0.1, 0.3}, {0.9, 0.7}}, unit_frame())}, "bar", unit_frame());
+  MeshOptions options;
+  options.edge_length = 0.2;
+  options.gradation = 1;
+  options.max_sweeps = 5;
+  mesh_silently(comm::Communicator::world(), bar.domain(), narrow, options);
+  EXPECT_LT(narrow.asked(), 20'000'000);
+}
+
 } // namespace
 } // namespace trime::meshing
