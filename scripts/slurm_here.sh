@@ -25,7 +25,7 @@ stop() {
 
 configure() {
   local cpus memory node
-  cpus=$(nproc)
+  cpus=$(env -u OMP_NUM_THREADS -u OMP_THREAD_LIMIT nproc) # nproc obeys these variables
   node=$(hostname -s)
   memory=$(awk '/^MemTotal/ {print int($2 / 1024 * 0.95)}' /proc/meminfo)
   mkdir -p "$dir/state" "$dir/spool"
