@@ -133,6 +133,24 @@ def check_petsc(mesh):
     return found
 
 
+def named_counts(line):
+    """The number of edges with each name in each package, if a curve runs along a part of an interface."""
+    west = parallel.Region("west", parallel.rectangle("west", (0, 0), (0.5, 1)))
+    square = parallel.rectangle("square", (0, 0), (1, 1))
+    mesh = parallel.mesh(comm, square, points=600, regions=[west], curves=[parallel.curve("wall", line)])
+    handed = mesh.to_petsc()
+    away = np.zeros(0, int)
+    if comm.size > 1:
+        _, local, remote = handed.dm.getPointSF().getGraph()
+        away = np.arange(len(remote)) if local is None else local
+    by_meshio = mesh.to_meshio().cell_data_dict["gmsh:physical"]["line"]
+    by_dolfinx = mesh.to_dolfinx()
+    owned = by_dolfinx.mesh.topology.index_map(1).size_local
+    return {name: [comm.allreduce(int(count)) for count in
+                   (len(np.setdiff1d(handed.find(name), away)), (by_meshio == handed.facets[name]).sum(),
+                    (by_dolfinx.find(name) < owned).sum())] for name in handed.facets}
+
+
 def check_lifetime():
     """Do arrays keep the memory that they show?"""
     points = parallel.mesh(comm, PLATE, points=300).points
@@ -218,6 +236,8 @@ def main(directory):
     west = parallel.Region("west", parallel.rectangle("west", (0, 0), (0.7, 1)))
     divided = parallel.mesh(comm, PLATE, points=600, regions=[west])
     found["arrays"] |= {name: agreed(holds) for name, holds in check_petsc(divided).items()}
+    wall = [(0.5, 0.3), (0.5, 1)]
+    found["named"] = [named_counts(line) for line in (wall, wall[::-1])]
     smallest = parallel.mesh(comm, PLATE, points=2000, accept=["fvcom", "mpas"], split_ears=True,
                              size={"wave": "1 + 3*x", "coast": lambda p: 5 - 2 * p[:, 0]})
     found["smallest"], found["shares"] = smallest.hash, smallest.size_shares

@@ -168,6 +168,7 @@ class Mesh:
       facet_parts     [b]    number of the part of the shape, see facet_names
       curve_edges [c,2], curve_numbers [c]          edges on curves inside, see curve_names
       interfaces [i,2], interface_pairs [i]         edges between regions, see interface_names
+      interface_curves [i]                          the curve that has the edge, too; -1: none
 
     owned_points, owned_triangles, owned_facets, owned_curve_edges and owned_interfaces count what this rank owns.
     first_point is the global id of the first point. total_points and total_triangles count over all ranks.
