@@ -116,6 +116,10 @@ void check_values(const MeshOptions& options) {
       throw ConfigError(fmt::format("MeshOptions::fixed_points: expected finite numbers, found ({}, {})", p.x, p.y));
 }
 
+bool is_uniform(const Size& size) {
+  return !size.is_automatic() && !size.function() && !size.field() && size.formula().empty() && !size.is_minimum();
+}
+
 /// Absolute sizes need a length that the size itself does not give.
 void check_absolute(const Size& size, const MeshOptions& options) {
   if (!options.absolute_sizes)
@@ -128,18 +132,16 @@ void check_absolute(const Size& size, const MeshOptions& options) {
       throw ConfigError(fmt::format("MeshOptions::min_size: expected a length, because absolute_sizes is set and the "
                                     "size '{}' is automatic",
                                     named.name));
-  if (!size.is_automatic() && size.parts().empty() && !size.function() && !size.field() && size.formula().empty() &&
-      !options.max_size)
+  if (is_uniform(size) && !options.max_size)
     throw ConfigError("MeshOptions::max_size: expected the length of the edges, because absolute_sizes is set and the "
                       "size is uniform");
 }
 
-bool is_uniform(const Size& size) {
-  return !size.is_automatic() && !size.function() && !size.field() && size.formula().empty() && size.parts().empty();
-}
-
 /// Several sizes need names, and each of them must be able to be the smallest one somewhere.
 void check_parts(const Size& size) {
+  if (size.is_minimum() && size.parts().empty())
+    throw ConfigError("the smallest one of several sizes: expected at least one size with a name, found none; use "
+                      "sizes::uniform() for a size that is the same everywhere");
   std::set<std::string> names;
   for (const auto& [name, part] : size.parts()) {
     const bool is_plain = std::ranges::all_of(
@@ -152,7 +154,7 @@ void check_parts(const Size& size) {
       throw ConfigError(fmt::format("the size '{}' is uniform: expected a size that varies, because several sizes are "
                                     "combined by their minimum; MeshOptions::max_size bounds all of them",
                                     name));
-    if (!part.parts().empty())
+    if (part.is_minimum())
       throw ConfigError(
           fmt::format("the size '{}' is the smallest one of others: expected these in the list itself", name));
   }

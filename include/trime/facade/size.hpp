@@ -44,6 +44,7 @@ public:
   double gradation() const { return gradation_; } ///< gradation of the automatic size
   /// The formula of a size that is one; otherwise empty.
   const std::string& formula() const { return formula_; }
+  bool is_minimum() const { return parts_ != nullptr; } ///< whether it is the smallest one of several sizes
   /// The sizes whose smallest one this is; empty for other sizes.
   std::span<const NamedSize> parts() const;
 

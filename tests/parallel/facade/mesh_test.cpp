@@ -430,6 +430,9 @@ TEST(FacadeErrors, ModelsAndSeveralSizes) {
   expect_in("the name 'a b' of a size", error_of<ConfigError>(mesh_with(smallest({{"a b", formula}}), options)));
   expect_in("'outer' is the smallest one of others",
             error_of<ConfigError>(mesh_with(smallest({{"outer", smallest({{"a", formula}})}}), options)));
+  expect_in("at least one size with a name, found none", error_of<ConfigError>(mesh_with(smallest({}), options)));
+  expect_in("'none' is the smallest one of others",
+            error_of<ConfigError>(mesh_with(smallest({{"a", formula}, {"none", smallest({})}}), options)));
 }
 
 TEST(FacadeErrors, Shapes) {
