@@ -13,6 +13,7 @@ from trime_mpi import ConfigError, GeometryError, parallel
 
 comm = MPI.COMM_WORLD
 PLATE = parallel.rectangle("plate", (0, 0), (2, 1)) - parallel.circle("hole", (1, 0.5), 0.2)
+SIZES = {"a": "1 + 3*x", "b": "3 - x"}
 MOVED = parallel.rectangle("plate", (0, 0), (2, 1)) - parallel.circle("hole", (1.03, 0.5), 0.2)
 
 
@@ -262,6 +263,8 @@ def main(directory):
     found["no_count"] = error_of(points=None)
     found["no_model"] = error_of(accept=["fvcon"])
     found["one_size_fails"] = error_of(size={"a": "1 + x", "b": failing(last=True)})
+    found["other_order"] = error_of(size=dict(reversed(SIZES.items()) if comm.rank else SIZES.items()))
+    found["other_name"] = error_of(size={"a a" if comm.rank else "a": "1 + x"})
     lines = plain.to_meshio().cells_dict["line"]
     found["meshio"] = comm.allreduce(len(lines)) == comm.allreduce(plain.owned_facets)
     if comm.size == 2:

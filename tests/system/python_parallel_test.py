@@ -70,6 +70,11 @@ class Parallel(WorkspaceCase):
         self.assertEqual(found["no_count"][0], "ConfigError")
         self.assertRegex(found["no_model"][1], "expected names of models among adcirc .*, found 'fvcon'")
         self.assertEqual(found["one_size_fails"][2:], ["ZeroDivisionError", 1])
+        if found["ranks"] == 1:
+            self.assertIsNone(found["other_order"])
+            return
+        self.assertRegex(found["other_order"][1], "rank 0 has 'size 'a' expression 1 .*, another rank has 'size 'b' ")
+        self.assertRegex(found["other_name"][1], "rank 0 has 'size 'a' .*, another rank has 'size 'a a' ")
 
     def check_names(self, named):
         """All packages and both directions of the curve have the same edges, an interface those without a curve."""

@@ -435,6 +435,36 @@ TEST(FacadeErrors, ModelsAndSeveralSizes) {
             error_of<ConfigError>(mesh_with(smallest({{"a", formula}, {"none", smallest({})}}), options)));
 }
 
+TEST(FacadeErrors, SizesThatDifferBetweenRanks) {
+  const comm::Communicator world = comm::Communicator::world();
+  if (world.size() == 1)
+    GTEST_SKIP() << "one rank agrees with itself";
+  const auto mesh_with = [&](const Size& of_root, const Size& of_others) {
+    return error_of<ConfigError>(
+        [&] { make_mesh(MPI_COMM_WORLD, plate(), world.is_root() ? of_root : of_others, {.points = 200}); });
+  };
+  const Size formula = sizes::formula("1 + x"), other = sizes::formula("2 - x");
+  const auto pair = [](const char* first, const Size& a, const char* second, const Size& b) {
+    return sizes::smallest({{first, a}, {second, b}});
+  };
+  expect_in("rank 0 has 'size expression 1 + x', another rank has 'size expression 2 - x'", mesh_with(formula, other));
+  expect_in("rank 0 has 'size uniform', another rank has 'size automatic",
+            mesh_with(sizes::uniform(), sizes::automatic()));
+  expect_in("gradation 0.1', another rank has 'size automatic, gradation 0.2'",
+            mesh_with(sizes::automatic(0.1), sizes::automatic(0.2)));
+  expect_in("rank 0 has 'size 'a' expression 1 + x', another rank has 'size 'b' expression 2 - x'",
+            mesh_with(pair("a", formula, "b", other), pair("b", other, "a", formula)));
+  expect_in("another rank has 'size 'b b' expression 2 - x'", // and not the bad name on that rank alone
+            mesh_with(pair("a", formula, "b", other), pair("a", formula, "b b", other)));
+  expect_in("the smallest of 2 sizes', another rank has 'size the smallest of 0 sizes'",
+            mesh_with(pair("a", formula, "b", other), sizes::smallest({})));
+  MeshOptions options{.points = 200};
+  if (world.is_root())
+    options.regions = {{"west", rectangle("west", {0, 0}, {0.5, 1})}};
+  expect_in("rank 0 has '1 regions, 0 curves", // the items of root begin with those of the others
+            error_of<ConfigError>([&] { make_mesh(MPI_COMM_WORLD, plate(), options); }));
+}
+
 TEST(FacadeErrors, Shapes) {
   const auto mesh_of = [](const Shape& shape) { return [=] { make_mesh(MPI_COMM_WORLD, shape, {.points = 100}); }; };
   const Shape square = rectangle("a", {0, 0}, {1, 1});
