@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <numbers>
 #include <set>
@@ -183,6 +184,22 @@ TEST(Facade, AFileIsReadBackWithItsNames) {
   read.write(directory.path() + "/other/plate.msh");
   expect_in("exists", error_of<FileError>([&] { read.write(directory.path() + "/other/plate.msh"); }));
   expect_in("expected a path that ends in .h5", error_of<ConfigError>([&] { read.write("plate.docx"); }));
+}
+
+TEST(Facade, LatitudesOfAnotherMeshDoNotStay) {
+  const comm::Communicator world = comm::Communicator::world();
+  const test::TemporaryDirectory directory(world);
+  const std::string path = directory.path() + "/plate_grd.dat", latitudes = directory.path() + "/plate_cor.dat";
+  if (world.is_root())
+    std::ofstream(latitudes) << "Node Number = 1\n0 0 54\n";
+  MPI_Barrier(MPI_COMM_WORLD);
+  const Mesh mesh = make_mesh(MPI_COMM_WORLD, plate(), {.points = 200});
+  expect_in("plate_cor.dat exists", error_of<FileError>([&] { mesh.write(path); }));
+  EXPECT_FALSE(std::filesystem::exists(path));
+  mesh.write(path, {.overwrite = true});
+  EXPECT_TRUE(std::filesystem::exists(path));
+  MPI_Barrier(MPI_COMM_WORLD);
+  EXPECT_FALSE(std::filesystem::exists(latitudes));
 }
 
 /// Writes a mesh with regions, which came from a program, to a file that names them.
