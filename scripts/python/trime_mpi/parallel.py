@@ -111,7 +111,8 @@ def mesh(comm, shape, *, size=None, **options):
     size is the wanted edge length, up to a factor: None for the same everywhere, a formula as text ("1 + 3*x"),
     automatic(), or a function. The function gets an array of n places with the shape (n, 2), and returns n sizes. It
     must give a place the same size on every rank, and in every array. A dict {name: size} stands for the smallest one
-    of several sizes; then size_shares of the mesh says how many points each of them decides.
+    of several sizes, in the same order on all ranks; then size_shares of the mesh says how many points each of them
+    decides. All of them must be lengths, or all relative, since their values are compared.
 
     Exactly one of points=N and edge_length=H must be given, or absolute_sizes=True. Other options are those of
     trime::MeshOptions: gradation, min_size, max_size, regions, curves, fixed_points (an array), container ((x, y), (x,
