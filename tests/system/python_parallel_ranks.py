@@ -265,6 +265,7 @@ def main(directory):
     found["one_size_fails"] = error_of(size={"a": "1 + x", "b": failing(last=True)})
     found["other_order"] = error_of(size=dict(reversed(SIZES.items()) if comm.rank else SIZES.items()))
     found["other_name"] = error_of(size={"a a" if comm.rank else "a": "1 + x"})
+    found["unknown_part"] = error_of(open_boundary=["hol"])
     lines = plain.to_meshio().cells_dict["line"]
     found["meshio"] = comm.allreduce(len(lines)) == comm.allreduce(plain.owned_facets)
     if comm.size == 2:

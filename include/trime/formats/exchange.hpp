@@ -99,8 +99,8 @@ struct Names {
   geometry::Vec2 period{0, 0};
   /// Reference system of the coordinates, as PROJ names it; empty: unknown.
   std::string crs{};
-  /// Names of the parts that are open in files for coastal models, such as fort14 (see configs/formats.md). No list:
-  /// those whose name says it.
+  /// Names of the parts that are open in files for coastal models, such as fort14 (see configs/formats.md). An empty
+  /// list: no part is open, as with `none` in a config. No list: those whose name says it, as with `auto`.
   std::optional<std::vector<std::string>> open_boundary{};
   /// The files of fort14, gr3, fvcom and 2dm hold longitude and latitude, not the coordinates of the mesh. Needs `crs`.
   bool in_degrees = false;

@@ -121,7 +121,8 @@ def mesh(comm, shape, *, size=None, **options):
     accept names models whose rules the mesh is measured by, such as ["adcirc", "fvcom"]; `verdicts` of the mesh has a
     Verdict for each rule. A rule that makes the model refuse the mesh is a check. The option split_ears=True divides
     triangles with two boundary edges, which some of these models refuse. The list open_boundary has the names of the
-    open parts of the boundary, for these rules and for files of coastal models; see configs/formats.md.
+    open parts of the boundary, for these rules and for files of coastal models; see configs/formats.md. An empty list
+    means that no part is open. None stands for the parts whose name has the word open, ocean or sea.
 
     start is an old mesh, of this function or of read(), or the path of a mesh file. Its points in the new shape are the
     first points of the new mesh. If shape and size differ little, this takes fewer sweeps than new points.

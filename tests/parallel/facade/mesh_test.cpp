@@ -437,7 +437,7 @@ TEST(FacadeErrors, ModelsAndSeveralSizes) {
   const MeshOptions options{.points = 200};
   expect_in("adcirc schism telemac fvcom delft3d mpas, found 'fvcon'",
             error_of<ConfigError>(mesh_with(sizes::uniform(), {.points = 200, .accept = {"fvcon"}})));
-  expect_in("did you mean 'hole'",
+  expect_in("open_boundary: no part of the boundary has the name 'hol'; did you mean 'hole'?; the names are",
             error_of<ConfigError>(
                 mesh_with(sizes::uniform(), {.points = 200, .open_boundary = std::vector<std::string>{"hol"}})));
   const Size formula = sizes::formula("1 + x");
