@@ -306,8 +306,8 @@ ExitCode convert(const CommandLine& line, io::RunFiles* files, const comm::Commu
   const std::string &from = line.files[0], &to = line.files[1];
   const formats::Format format = format_of_output(to);
   const auto refuse = [&](const formats::Names& with) {
-    formats::refuse_to_replace(formats::paths_of(format, to, with), line.overwrite, "add --overwrite to replace it",
-                               comm);
+    formats::refuse_to_replace(formats::touched_paths(format, to, with), line.overwrite,
+                               "add --overwrite to replace it", comm);
   };
   refuse({}); // before the file is read
   const Metadata metadata = io::read_metadata(from, {"tags", "curves", "interfaces"}, comm);

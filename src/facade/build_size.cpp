@@ -193,7 +193,7 @@ std::string text_of(const Size& size) {
     return fmt::format("automatic, gradation {:.6g}", size.gradation());
   if (!size.formula().empty())
     return "expression " + size.formula();
-  if (size.parts().empty())
+  if (!size.is_minimum())
     return size.function() || size.field() ? "a function of the program" : "uniform";
   std::string text;
   for (const NamedSize& named : size.parts()) {

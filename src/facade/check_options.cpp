@@ -4,6 +4,7 @@
 #include "acceptance/solver_rules.hpp"
 #include "comm/agree.hpp"
 #include "core/quoted.hpp"
+#include "facade/build_size.hpp"
 #include "trime/core/error.hpp"
 
 #include <fmt/ranges.h>
@@ -23,6 +24,21 @@ std::string text_of(const std::optional<T>& value) {
 
 std::string text_of(const std::optional<Box>& box) {
   return box ? fmt::format("({}, {}) to ({}, {})", box->min.x, box->min.y, box->max.x, box->max.y) : "none";
+}
+
+/// What the ranks can know of a size without a call of its function.
+std::string kind_of(const Size& size) {
+  if (size.is_minimum())
+    return fmt::format("the smallest of {} sizes", size.parts().size());
+  return size.is_automatic() ? fmt::format("automatic, gradation {}", size.gradation()) : text_of(size);
+}
+
+/// Returns the facts of a size on which the ranks must agree, one on each line.
+std::vector<std::string> items_of(const Size& size) {
+  std::vector<std::string> items{"size " + kind_of(size)};
+  for (const NamedSize& named : size.parts())
+    items.push_back(fmt::format("size '{}' {}", named.name, kind_of(named.size)));
+  return items;
 }
 
 /// Returns the facts on which the ranks must agree, one on each line.
@@ -51,7 +67,8 @@ std::vector<std::string> items_of(const Shape& shape, const MeshOptions& options
                   static_cast<int>(features.components), features.component_place.x, features.component_place.y,
                   text_of(features.max_loss)),
       fmt::format("rest '{}', regions_cover_all {}", options.rest, options.regions_cover_all),
-      fmt::format("{} curves, {} fixed points", options.curves.size(), options.fixed_points.size())};
+      fmt::format("{} regions, {} curves, {} fixed points", options.regions.size(), options.curves.size(),
+                  options.fixed_points.size())};
   for (const Region& region : options.regions)
     items.push_back(fmt::format("region '{}' {} of size {}", region.name, region.shape.text(), text_of(region.size)));
   for (const Vec2 p : options.fixed_points)
@@ -59,8 +76,10 @@ std::vector<std::string> items_of(const Shape& shape, const MeshOptions& options
   return items;
 }
 
-void check_same(const Shape& shape, const MeshOptions& options, const comm::Communicator& comm) {
-  const std::vector<std::string> items = items_of(shape, options);
+void check_same(const Shape& shape, const Size& size, const MeshOptions& options, const comm::Communicator& comm) {
+  std::vector<std::string> items = items_of(shape, options);
+  const std::vector<std::string> size_items = items_of(size);
+  items.insert(items.end(), size_items.begin(), size_items.end());
   const std::string here = fmt::format("{}", fmt::join(items, "\n"));
   const std::string of_root = comm.broadcast(here);
   comm::run_agreed(comm, [&] {
@@ -71,7 +90,7 @@ void check_same(const Shape& shape, const MeshOptions& options, const comm::Comm
       const std::string theirs = of_root.substr(start, of_root.find('\n', start) - start);
       if (item != theirs)
         throw ConfigError(fmt::format("the ranks ask for different meshes: rank 0 has '{}', another rank has '{}'; "
-                                      "expected the same shape and options on all ranks",
+                                      "expected the same shape, size and options on all ranks",
                                       theirs, item));
       start += theirs.size() + 1;
     }
@@ -116,6 +135,10 @@ void check_values(const MeshOptions& options) {
       throw ConfigError(fmt::format("MeshOptions::fixed_points: expected finite numbers, found ({}, {})", p.x, p.y));
 }
 
+bool is_uniform(const Size& size) {
+  return !size.is_automatic() && !size.function() && !size.field() && size.formula().empty() && !size.is_minimum();
+}
+
 /// Absolute sizes need a length that the size itself does not give.
 void check_absolute(const Size& size, const MeshOptions& options) {
   if (!options.absolute_sizes)
@@ -128,18 +151,16 @@ void check_absolute(const Size& size, const MeshOptions& options) {
       throw ConfigError(fmt::format("MeshOptions::min_size: expected a length, because absolute_sizes is set and the "
                                     "size '{}' is automatic",
                                     named.name));
-  if (!size.is_automatic() && size.parts().empty() && !size.function() && !size.field() && size.formula().empty() &&
-      !options.max_size)
+  if (is_uniform(size) && !options.max_size)
     throw ConfigError("MeshOptions::max_size: expected the length of the edges, because absolute_sizes is set and the "
                       "size is uniform");
 }
 
-bool is_uniform(const Size& size) {
-  return !size.is_automatic() && !size.function() && !size.field() && size.formula().empty() && size.parts().empty();
-}
-
 /// Several sizes need names, and each of them must be able to be the smallest one somewhere.
 void check_parts(const Size& size) {
+  if (size.is_minimum() && size.parts().empty())
+    throw ConfigError("the smallest one of several sizes: expected at least one size with a name, found none; use "
+                      "sizes::uniform() for a size that is the same everywhere");
   std::set<std::string> names;
   for (const auto& [name, part] : size.parts()) {
     const bool is_plain = std::ranges::all_of(
@@ -152,7 +173,7 @@ void check_parts(const Size& size) {
       throw ConfigError(fmt::format("the size '{}' is uniform: expected a size that varies, because several sizes are "
                                     "combined by their minimum; MeshOptions::max_size bounds all of them",
                                     name));
-    if (!part.parts().empty())
+    if (part.is_minimum())
       throw ConfigError(
           fmt::format("the size '{}' is the smallest one of others: expected these in the list itself", name));
   }
@@ -173,7 +194,7 @@ std::vector<acceptance::Solver> models_of(const std::vector<std::string>& words)
 }
 
 void check_options(const Shape& shape, const Size& size, const MeshOptions& options, const comm::Communicator& comm) {
-  check_same(shape, options, comm);
+  check_same(shape, size, options, comm);
   check_values(options); // the same on all ranks
   check_parts(size);
   check_absolute(size, options);

@@ -11,8 +11,10 @@
 
 namespace trime {
 
-/// Checks the options, and whether they suit the size.
-/// @throws ConfigError on all ranks together, if no mesh can satisfy an option or if ranks have different options
+/// Checks the options, the names of several sizes, and whether the options suit the size. Functions of different ranks
+/// cannot be compared.
+/// @throws ConfigError on all ranks together, if no mesh can satisfy an option, or if ranks have different options or
+/// sizes
 /// @note Collective.
 void check_options(const Shape& shape, const Size& size, const MeshOptions& options, const comm::Communicator& comm);
 

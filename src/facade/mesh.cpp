@@ -308,7 +308,7 @@ void Mesh::write(const std::string& path, const WriteOptions& options) const {
                                   path));
   formats::Names names = names_of(origin);
   names.cells = options.cells;
-  formats::refuse_to_replace(formats::paths_of(*format, path, names), options.overwrite, how_to_replace, comm);
+  formats::refuse_to_replace(formats::touched_paths(*format, path, names), options.overwrite, how_to_replace, comm);
   make_directory_of(file, comm);
   const formats::Exported made = formats::write(*format, path, result().mesh, names, nullptr, comm);
   if (!made.warning.empty() && comm.is_root())

@@ -7,8 +7,10 @@
 #include "io/temporary_file.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <limits>
 #include <string_view>
 
@@ -67,6 +69,28 @@ bool ends_with(const std::string& text, const std::string& end) {
   return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
+/// The path of the first file without the ending of the format.
+std::string stem_of(const FormatInfo& format, const std::string& path) {
+  return ends_with(path, format.ending) ? path.substr(0, path.size() - std::string_view(format.ending).size()) : path;
+}
+
+/// The file of FVCOM with the latitudes of the points.
+std::string latitudes_of(const std::string& stem) {
+  return stem + "_cor.dat";
+}
+
+/// Rank 0 removes them before the first new file appears: a model does not start without a file that it needs, but it
+/// would run with one of another mesh. Collective.
+void remove_stale(const std::vector<std::string>& paths, const comm::Communicator& comm) {
+  comm::run_agreed(comm, [&] {
+    if (comm.is_root())
+      for (const std::string& path : paths)
+        if (unlink(path.c_str()) != 0 && errno != ENOENT)
+          throw FileError(
+              fmt::format("{} belongs to another mesh and cannot be removed: {}", path, io::system_error()));
+  });
+}
+
 } // namespace
 
 std::span<const FormatInfo> all_formats() {
@@ -117,8 +141,7 @@ std::string words_of(bool FormatInfo::*property, const char* last) {
 }
 
 std::vector<std::string> paths_of(Format format, const std::string& path, const Names& names) {
-  const std::string ending = info_of(format).ending;
-  const std::string stem = ends_with(path, ending) ? path.substr(0, path.size() - ending.size()) : path;
+  const std::string stem = stem_of(info_of(format), path);
   if (format == Format::triangle)
     return {stem + ".node", stem + ".ele", stem + ".edge"};
   std::vector<std::string> paths{path};
@@ -127,7 +150,7 @@ std::vector<std::string> paths_of(Format format, const std::string& path, const 
   if (format == Format::fvcom) {
     paths.insert(paths.end(), {stem + "_dep.dat", stem + "_obc.dat"});
     if (!names.crs.empty())
-      paths.push_back(stem + "_cor.dat");
+      paths.push_back(latitudes_of(stem));
   }
   if (format == Format::disv)
     paths.push_back(stem + ".zones");
@@ -141,6 +164,19 @@ std::vector<std::string> paths_of(Format format, const std::string& path, const 
   return paths;
 }
 
+std::vector<std::string> stale_paths(Format format, const std::string& path, const Names& names) {
+  if (format != Format::fvcom || !names.crs.empty())
+    return {};
+  return {latitudes_of(stem_of(info_of(format), path))};
+}
+
+std::vector<std::string> touched_paths(Format format, const std::string& path, const Names& names) {
+  std::vector<std::string> paths = paths_of(format, path, names);
+  for (const std::string& stale : stale_paths(format, path, names))
+    paths.push_back(stale);
+  return paths;
+}
+
 Exported write(Format format, const std::string& path, const mesh::DistributedMesh& mesh, const Names& with,
                io::RunFiles* files, const comm::Communicator& comm) {
   const FormatInfo& info = info_of(format);
@@ -148,7 +184,9 @@ Exported write(Format format, const std::string& path, const mesh::DistributedMe
   const ExchangeMesh exchange(mesh, with, comm);
   io::FileSet written;
   Exported made{paths_of(format, path, with)};
-  for (const FilePlan& file : info.plan(exchange, path)) {
+  const std::vector<FilePlan> plans = info.plan(exchange, path);
+  remove_stale(stale_paths(format, path, with), comm);
+  for (const FilePlan& file : plans) {
     comm::run_agreed(comm, [&] {
       if (comm.is_root())
         written.add(file.path);

@@ -85,7 +85,7 @@ std::vector<std::string> SeriesOptions::export_paths() const {
   std::vector<std::string> paths;
   for (const Format format : formats)
     if (const FormatInfo& info = info_of(format); info.plan)
-      for (const std::string& path : paths_of(format, file.path(info.ending), names))
+      for (const std::string& path : touched_paths(format, file.path(info.ending), names))
         paths.push_back(path);
   return paths;
 }

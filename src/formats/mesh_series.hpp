@@ -28,7 +28,7 @@ struct SeriesOptions {
   Names names{};      ///< names of boundaries and regions, for all formats except vtkhdf and xdmf
 
   bool wants(Format format) const { return std::find(formats.begin(), formats.end(), format) != formats.end(); }
-  /// Returns the paths of the files in formats of other programs.
+  /// Returns the paths at which files in formats of other programs are written, replaced or removed.
   std::vector<std::string> export_paths() const;
 };
 

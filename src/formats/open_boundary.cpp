@@ -53,8 +53,8 @@ std::string listed(const std::vector<std::string>& names) {
   std::vector<std::string> known = parts;
   for (const std::string& part : parts)
     known.push_back(behind_dot(part));
-  throw ConfigError(fmt::format("'open_boundary = {}' in [output]: no part of the boundary has this name{}; the names "
-                                "are {}; separate several names by commas",
+  throw ConfigError(fmt::format("open_boundary: no part of the boundary has the name '{}'{}; the names are {}; a "
+                                "config separates several names by commas, a program gives a list",
                                 shown(wanted), suggestion(wanted, known), listed(parts)));
 }
 

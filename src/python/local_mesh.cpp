@@ -101,6 +101,7 @@ void bind_local_mesh(py::module_& module) {
   array("interface_triangles", &Arrays::interface_triangles);
   array("interface_regions", &Arrays::interface_regions);
   array("interface_pairs", &Arrays::interface_pairs);
+  array("interface_curves", &Arrays::interface_curves);
   array("split_pairs", &Arrays::split_pairs);
   array("split_curves", &Arrays::split_curves);
   local.def("global_ids", global_ids);

@@ -14,7 +14,7 @@ from fields_test import write_ascii
 from format_readers import Expected, rows
 from trime_run import WorkspaceCase, run
 
-INCOMPLETE = 5
+FILE, INCOMPLETE = 4, 5
 # A bay with an open side, and an island in it.
 LINES = {"coast": [[1, 1], [0, 1], [0, 0], [1, 0]], "open sea": [[1, 0], [1, 1]],
          "island": [[0.4, 0.4], [0.6, 0.4], [0.6, 0.6], [0.4, 0.6], [0.4, 0.4]]}
@@ -160,6 +160,30 @@ class CoastFormats(WorkspaceCase):
         self.assertTrue((abs(degrees.points - [8.5, 54.5]) < 0.5 + 1e-6).all())
         self.assertGreater(np.ptp(plane.points[:, 1]), 1e5)  # metres
         self.assertFalse(plane.depth.any() or len(plane.obc))
+        self.check_latitudes_of_a_mesh_without_a_map()
+
+    def check_latitudes_of_a_mesh_without_a_map(self):
+        """FVCOM would use those of the mesh before, which are refused, or removed with overwrite."""
+        latitudes = self.directory / "bay_cor.dat"
+        old, kept = latitudes.read_bytes(), [self.directory / f"bay_{kind}.dat" for kind in ("grd", "dep", "obc")]
+        flat = ("output.overwrite=false", "shape.projection=none")
+        for path in (*kept, *self.directory.glob("bay.[hxv]*")):
+            path.unlink()
+        done = run(self.directory / "bay.ini", *flat, ranks=2)
+        self.assertEqual(done.returncode, FILE, done.stdout + done.stderr)
+        self.assertRegex(done.stderr, "bay_cor.dat exists; set output.overwrite = true to replace it")
+        self.assertEqual(latitudes.read_bytes(), old)
+        self.mesh("shape.projection=none", ranks=2)
+        self.assertIsNone(Fvcom(kept[0]).latitudes)
+        for path in kept:
+            path.unlink()
+        latitudes.write_bytes(old)
+        convert = ("convert", self.directory / "bay.h5", kept[0])
+        done = run(*convert)
+        self.assertEqual(done.returncode, FILE, done.stderr)
+        self.assertRegex(done.stderr, "bay_cor.dat exists; add --overwrite to replace it")
+        self.assertEqual(run(*convert, "--overwrite", ranks=2).returncode, 0)
+        self.assertIsNone(Fvcom(kept[0]).latitudes)
 
     def test_the_checker_reads_depths_and_finds_bad_ones(self):
         self.mesh("output.formats=vtkhdf xdmf")

@@ -433,7 +433,7 @@ class Formats(unittest.TestCase):
                 self.assertEqual(*lines)
         done = run(self.work / "own.ini", "output.open_boundary=bay, ilsand", "--validate", ranks=3)
         self.assertEqual(done.returncode, USAGE, done.stderr)
-        self.assertRegex(done.stderr, r"'open_boundary = ilsand' in \[output\]: no part .* did you mean 'island'\?; "
+        self.assertRegex(done.stderr, r"open_boundary: no part .* the name 'ilsand'; did you mean 'island'\?; "
                                       "the names are open_sea, bay, island, sunk")
 
     def test_words_of_a_map_that_open_a_boundary(self):

@@ -13,6 +13,7 @@ from trime_mpi import ConfigError, GeometryError, parallel
 
 comm = MPI.COMM_WORLD
 PLATE = parallel.rectangle("plate", (0, 0), (2, 1)) - parallel.circle("hole", (1, 0.5), 0.2)
+SIZES = {"a": "1 + 3*x", "b": "3 - x"}
 MOVED = parallel.rectangle("plate", (0, 0), (2, 1)) - parallel.circle("hole", (1.03, 0.5), 0.2)
 
 
@@ -133,6 +134,24 @@ def check_petsc(mesh):
     return found
 
 
+def named_counts(line):
+    """The number of edges with each name in each package, if a curve runs along a part of an interface."""
+    west = parallel.Region("west", parallel.rectangle("west", (0, 0), (0.5, 1)))
+    square = parallel.rectangle("square", (0, 0), (1, 1))
+    mesh = parallel.mesh(comm, square, points=600, regions=[west], curves=[parallel.curve("wall", line)])
+    handed = mesh.to_petsc()
+    away = np.zeros(0, int)
+    if comm.size > 1:
+        _, local, remote = handed.dm.getPointSF().getGraph()
+        away = np.arange(len(remote)) if local is None else local
+    by_meshio = mesh.to_meshio().cell_data_dict["gmsh:physical"]["line"]
+    by_dolfinx = mesh.to_dolfinx()
+    owned = by_dolfinx.mesh.topology.index_map(1).size_local
+    return {name: [comm.allreduce(int(count)) for count in
+                   (len(np.setdiff1d(handed.find(name), away)), (by_meshio == handed.facets[name]).sum(),
+                    (by_dolfinx.find(name) < owned).sum())] for name in handed.facets}
+
+
 def check_lifetime():
     """Do arrays keep the memory that they show?"""
     points = parallel.mesh(comm, PLATE, points=300).points
@@ -218,6 +237,8 @@ def main(directory):
     west = parallel.Region("west", parallel.rectangle("west", (0, 0), (0.7, 1)))
     divided = parallel.mesh(comm, PLATE, points=600, regions=[west])
     found["arrays"] |= {name: agreed(holds) for name, holds in check_petsc(divided).items()}
+    wall = [(0.5, 0.3), (0.5, 1)]
+    found["named"] = [named_counts(line) for line in (wall, wall[::-1])]
     smallest = parallel.mesh(comm, PLATE, points=2000, accept=["fvcom", "mpas"], split_ears=True,
                              size={"wave": "1 + 3*x", "coast": lambda p: 5 - 2 * p[:, 0]})
     found["smallest"], found["shares"] = smallest.hash, smallest.size_shares
@@ -242,6 +263,9 @@ def main(directory):
     found["no_count"] = error_of(points=None)
     found["no_model"] = error_of(accept=["fvcon"])
     found["one_size_fails"] = error_of(size={"a": "1 + x", "b": failing(last=True)})
+    found["other_order"] = error_of(size=dict(reversed(SIZES.items()) if comm.rank else SIZES.items()))
+    found["other_name"] = error_of(size={"a a" if comm.rank else "a": "1 + x"})
+    found["unknown_part"] = error_of(open_boundary=["hol"])
     lines = plain.to_meshio().cells_dict["line"]
     found["meshio"] = comm.allreduce(len(lines)) == comm.allreduce(plain.owned_facets)
     if comm.size == 2:

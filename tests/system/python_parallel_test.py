@@ -70,13 +70,27 @@ class Parallel(WorkspaceCase):
         self.assertEqual(found["no_count"][0], "ConfigError")
         self.assertRegex(found["no_model"][1], "expected names of models among adcirc .*, found 'fvcon'")
         self.assertEqual(found["one_size_fails"][2:], ["ZeroDivisionError", 1])
+        self.assertRegex(found["unknown_part"][1], "^open_boundary: no part of the boundary has the name 'hol'.*'hole'")
+        if found["ranks"] == 1:
+            self.assertIsNone(found["other_order"])
+            return
+        self.assertRegex(found["other_order"][1], "rank 0 has 'size 'a' expression 1 .*, another rank has 'size 'b' ")
+        self.assertRegex(found["other_name"][1], "rank 0 has 'size 'a' .*, another rank has 'size 'a a' ")
+
+    def check_names(self, named):
+        """All packages and both directions of the curve have the same edges, an interface those without a curve."""
+        for counts in named:
+            self.assertEqual({name: set(count) for name, count in counts.items()},
+                             {name: {count[0]} for name, count in named[0].items()})
+        wall, rest = (named[0][name][0] for name in ("wall", "square|west"))
+        self.assertAlmostEqual(wall / (wall + rest), 0.7, delta=0.05)
 
     def test_the_same_mesh_on_all_ranks_as_by_the_program(self):
         expected = {"uniform": self.hash_of_program(""),
                     "automatic": self.hash_of_program("[sizing]\ntype = automatic\n"),
                     "smallest": self.hash_of_program(SMALLEST, "smallest_of_program"),
                     "formula": self.hash_of_program("[sizing]\ntype = expression\nexpression = 1 + 3*x*x + y\n")}
-        started, smooth = set(), set()
+        started, smooth, named = set(), set(), set()
         by_program = trime_mpi.read(self.directory / "smallest_of_program.h5")
         for ranks in (1, 2, 3):
             found = json.loads(python(ROOT / "tests" / "system" / "python_parallel_ranks.py", self.directory,
@@ -89,6 +103,8 @@ class Parallel(WorkspaceCase):
             self.assertEqual(found["shares"], by_program.size_shares)
             self.assertEqual(found["verdicts"], [[v.solver, v.rule, v.limit, v.worst, v.broken, v.measured, v.refuses]
                                                  for v in by_program.verdicts])
+            self.check_names(found["named"])
+            named.add(json.dumps(found["named"]))
             smooth.add(found["smooth"])
             self.assertLess(found["calls"], 20000)  # one a point, where each place alone would take many
             self.assertGreater(found["places"], 200000)
@@ -97,7 +113,7 @@ class Parallel(WorkspaceCase):
             self.check_errors(found)
             if ranks == 2:
                 self.check_poisson(*found["poisson"])
-        self.assertEqual((len(started), len(smooth)), (1, 1), (started, smooth))
+        self.assertEqual([len(hashes) for hashes in (started, smooth, named)], [1, 1, 1], (started, smooth, named))
 
     def check_poisson(self, coarse, fine):
         order = math.log2(coarse["error"] / fine["error"])  # from 1000 to 4000 points h is halved

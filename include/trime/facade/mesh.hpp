@@ -163,7 +163,8 @@ struct MeshOptions {
   /// Mesh::verdicts and configs/formats.md. A rule that makes the model refuse the mesh is a check of the mesh.
   std::vector<std::string> accept{};
   /// Names of those parts of the boundary that are open, in `accept` and in the files of coastal models: the name of a
-  /// part, or the text before or behind its dot. Not set: parts whose name has the word "open", "ocean" or "sea".
+  /// part, or the text before or behind its dot. An empty list: no part is open. Not set: parts whose name has the word
+  /// "open", "ocean" or "sea".
   std::optional<std::vector<std::string>> open_boundary{};
   double worst_alpha =
       5; ///< a triangle with a larger alpha, R/(2r), fails a check, unless it lies at a corner below 60 degrees

@@ -44,6 +44,7 @@ public:
   double gradation() const { return gradation_; } ///< gradation of the automatic size
   /// The formula of a size that is one; otherwise empty.
   const std::string& formula() const { return formula_; }
+  bool is_minimum() const { return parts_ != nullptr; } ///< whether it is the smallest one of several sizes
   /// The sizes whose smallest one this is; empty for other sizes.
   std::span<const NamedSize> parts() const;
 
@@ -95,9 +96,10 @@ inline Size formula(const std::string& text) {
 /// @brief Returns the smallest one of several sizes at each place, such as
 /// `smallest({{"wave", sizes::formula("0.02 + 0.02*x")}, {"coast", near_coast}})`. These are the sections
 /// `[size.NAME]` of a config; the name `sizing` stands for its section `[sizing]`. Mesh::size_shares says how many
-/// points each size decides.
-/// @param sizes at least one, with different names; none is uniform or a minimum itself, otherwise make_mesh throws a
-/// ConfigError on all ranks. MeshOptions::max_size bounds all of them
+/// points each size decides. The values of the sizes are compared as they are, so all must be lengths, or all relative:
+/// an automatic size, which is a length, and a relative formula mix units.
+/// @param sizes at least one, with different names, in the same order on all ranks; none is uniform or a minimum
+/// itself, otherwise make_mesh throws a ConfigError on all ranks. MeshOptions::max_size bounds all of them
 inline Size smallest(std::vector<NamedSize> sizes) {
   return smallest_size(std::move(sizes));
 }

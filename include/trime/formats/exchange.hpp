@@ -99,8 +99,8 @@ struct Names {
   geometry::Vec2 period{0, 0};
   /// Reference system of the coordinates, as PROJ names it; empty: unknown.
   std::string crs{};
-  /// Names of the parts that are open in files for coastal models, such as fort14 (see configs/formats.md). No list:
-  /// those whose name says it.
+  /// Names of the parts that are open in files for coastal models, such as fort14 (see configs/formats.md). An empty
+  /// list: no part is open, as with `none` in a config. No list: those whose name says it, as with `auto`.
   std::optional<std::vector<std::string>> open_boundary{};
   /// The files of fort14, gr3, fvcom and 2dm hold longitude and latitude, not the coordinates of the mesh. Needs `crs`.
   bool in_degrees = false;
@@ -111,6 +111,11 @@ struct Names {
 /// Returns the paths of all files of a format if the first file is `path`. For example, Triangle has three files, and
 /// PFLOTRAN one for each part of the boundary.
 std::vector<std::string> paths_of(Format format, const std::string& path, const Names& names);
+/// @brief Returns the paths of files that belong to another mesh if they exist at all, because this one has none: for
+/// FVCOM the latitudes of a mesh with a known reference system. The model would take them for part of this mesh.
+std::vector<std::string> stale_paths(Format format, const std::string& path, const Names& names);
+/// Returns the paths at which write() replaces or removes a file: those of paths_of() and of stale_paths().
+std::vector<std::string> touched_paths(Format format, const std::string& path, const Names& names);
 
 /// The files of a format.
 struct Exported {
@@ -121,8 +126,8 @@ struct Exported {
 };
 
 /// @brief Writes the mesh in a format of another program. Each file appears complete or not at all; files of the same
-/// name are replaced. The ranks make the text in slices, so no rank holds the whole of it; for sms, adcirc, schism,
-/// telemac and fvcom, however, rank 0 gathers all boundary edges.
+/// name are replaced, and those of stale_paths() removed. The ranks make the text in slices, so no rank holds the whole
+/// of it; for sms, adcirc, schism, telemac and fvcom, however, rank 0 gathers all boundary edges.
 /// @param files list of the temporary files, which a signal handler removes; may be null
 /// @throws ConfigError for a mesh that the format cannot hold (periodic container, too many points); FileError if a
 /// file cannot be written; both on all ranks together

@@ -47,12 +47,13 @@ def named_edges(mesh):
     names = [*mesh.facet_names, *mesh.curve_names, *mesh.interface_names]
     numbers = {name: number for number, name in reversed(list(enumerate(names, 1)))}
     first_curve = 1 + len(mesh.facet_names)
-    curves, ties = mesh.owned_curve_edges, mesh.owned_interfaces
-    edges = np.concatenate([mesh.facets[:mesh.owned_facets], mesh.curve_edges[:curves], mesh.interfaces[:ties]])
+    curves = mesh.owned_curve_edges
+    # The curve lists its edges, too. Another rank may own them there, where they run in the direction of the curve.
+    ties = np.flatnonzero(mesh.interface_curves[:mesh.owned_interfaces] < 0)
+    edges = np.concatenate([mesh.facets[:mesh.owned_facets], mesh.curve_edges[:curves], mesh.interfaces[ties]])
     tags = np.concatenate([1 + mesh.facet_parts[:mesh.owned_facets], first_curve + mesh.curve_numbers[:curves],
-                           first_curve + len(mesh.curve_names) + mesh.interface_pairs[:ties]]).astype(np.int32)
-    _, rows = np.unique(np.sort(edges, axis=1), axis=0, return_index=True)  # the first of equal edges
-    return edges[rows], tags[rows], numbers
+                           first_curve + len(mesh.curve_names) + mesh.interface_pairs[ties]]).astype(np.int32)
+    return edges, tags, numbers
 
 
 def distributed_tags(domain, dim, entities, values):

@@ -111,7 +111,8 @@ def mesh(comm, shape, *, size=None, **options):
     size is the wanted edge length, up to a factor: None for the same everywhere, a formula as text ("1 + 3*x"),
     automatic(), or a function. The function gets an array of n places with the shape (n, 2), and returns n sizes. It
     must give a place the same size on every rank, and in every array. A dict {name: size} stands for the smallest one
-    of several sizes; then size_shares of the mesh says how many points each of them decides.
+    of several sizes, in the same order on all ranks; then size_shares of the mesh says how many points each of them
+    decides. All of them must be lengths, or all relative, since their values are compared.
 
     Exactly one of points=N and edge_length=H must be given, or absolute_sizes=True. Other options are those of
     trime::MeshOptions: gradation, min_size, max_size, regions, curves, fixed_points (an array), container ((x, y), (x,
@@ -120,7 +121,8 @@ def mesh(comm, shape, *, size=None, **options):
     accept names models whose rules the mesh is measured by, such as ["adcirc", "fvcom"]; `verdicts` of the mesh has a
     Verdict for each rule. A rule that makes the model refuse the mesh is a check. The option split_ears=True divides
     triangles with two boundary edges, which some of these models refuse. The list open_boundary has the names of the
-    open parts of the boundary, for these rules and for files of coastal models; see configs/formats.md.
+    open parts of the boundary, for these rules and for files of coastal models; see configs/formats.md. An empty list
+    means that no part is open. None stands for the parts whose name has the word open, ocean or sea.
 
     start is an old mesh, of this function or of read(), or the path of a mesh file. Its points in the new shape are the
     first points of the new mesh. If shape and size differ little, this takes fewer sweeps than new points.
@@ -168,6 +170,7 @@ class Mesh:
       facet_parts     [b]    number of the part of the shape, see facet_names
       curve_edges [c,2], curve_numbers [c]          edges on curves inside, see curve_names
       interfaces [i,2], interface_pairs [i]         edges between regions, see interface_names
+      interface_curves [i]                          the curve that has the edge, too; -1: none
 
     owned_points, owned_triangles, owned_facets, owned_curve_edges and owned_interfaces count what this rank owns.
     first_point is the global id of the first point. total_points and total_triangles count over all ranks.

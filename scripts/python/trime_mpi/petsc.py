@@ -122,7 +122,7 @@ def share_vertices(dm, mesh, vertices):
 
 
 def agreed_numbers(dm, numbers):
-    """Gives the points of several ranks the number that one of them has, in place. Collective."""
+    """Gives the points of several ranks the number that one of them has, others 0, in place. Collective."""
     from mpi4py import MPI
     if dm.comm.size == 1:
         return

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <numbers>
 #include <set>
@@ -183,6 +184,22 @@ TEST(Facade, AFileIsReadBackWithItsNames) {
   read.write(directory.path() + "/other/plate.msh");
   expect_in("exists", error_of<FileError>([&] { read.write(directory.path() + "/other/plate.msh"); }));
   expect_in("expected a path that ends in .h5", error_of<ConfigError>([&] { read.write("plate.docx"); }));
+}
+
+TEST(Facade, LatitudesOfAnotherMeshDoNotStay) {
+  const comm::Communicator world = comm::Communicator::world();
+  const test::TemporaryDirectory directory(world);
+  const std::string path = directory.path() + "/plate_grd.dat", latitudes = directory.path() + "/plate_cor.dat";
+  if (world.is_root())
+    std::ofstream(latitudes) << "Node Number = 1\n0 0 54\n";
+  MPI_Barrier(MPI_COMM_WORLD);
+  const Mesh mesh = make_mesh(MPI_COMM_WORLD, plate(), {.points = 200});
+  expect_in("plate_cor.dat exists", error_of<FileError>([&] { mesh.write(path); }));
+  EXPECT_FALSE(std::filesystem::exists(path));
+  mesh.write(path, {.overwrite = true});
+  EXPECT_TRUE(std::filesystem::exists(path));
+  MPI_Barrier(MPI_COMM_WORLD);
+  EXPECT_FALSE(std::filesystem::exists(latitudes));
 }
 
 /// Writes a mesh with regions, which came from a program, to a file that names them.
@@ -420,7 +437,7 @@ TEST(FacadeErrors, ModelsAndSeveralSizes) {
   const MeshOptions options{.points = 200};
   expect_in("adcirc schism telemac fvcom delft3d mpas, found 'fvcon'",
             error_of<ConfigError>(mesh_with(sizes::uniform(), {.points = 200, .accept = {"fvcon"}})));
-  expect_in("did you mean 'hole'",
+  expect_in("open_boundary: no part of the boundary has the name 'hol'; did you mean 'hole'?; the names are",
             error_of<ConfigError>(
                 mesh_with(sizes::uniform(), {.points = 200, .open_boundary = std::vector<std::string>{"hol"}})));
   const Size formula = sizes::formula("1 + x");
@@ -430,6 +447,39 @@ TEST(FacadeErrors, ModelsAndSeveralSizes) {
   expect_in("the name 'a b' of a size", error_of<ConfigError>(mesh_with(smallest({{"a b", formula}}), options)));
   expect_in("'outer' is the smallest one of others",
             error_of<ConfigError>(mesh_with(smallest({{"outer", smallest({{"a", formula}})}}), options)));
+  expect_in("at least one size with a name, found none", error_of<ConfigError>(mesh_with(smallest({}), options)));
+  expect_in("'none' is the smallest one of others",
+            error_of<ConfigError>(mesh_with(smallest({{"a", formula}, {"none", smallest({})}}), options)));
+}
+
+TEST(FacadeErrors, SizesThatDifferBetweenRanks) {
+  const comm::Communicator world = comm::Communicator::world();
+  if (world.size() == 1)
+    GTEST_SKIP() << "one rank agrees with itself";
+  const auto mesh_with = [&](const Size& of_root, const Size& of_others) {
+    return error_of<ConfigError>(
+        [&] { make_mesh(MPI_COMM_WORLD, plate(), world.is_root() ? of_root : of_others, {.points = 200}); });
+  };
+  const Size formula = sizes::formula("1 + x"), other = sizes::formula("2 - x");
+  const auto pair = [](const char* first, const Size& a, const char* second, const Size& b) {
+    return sizes::smallest({{first, a}, {second, b}});
+  };
+  expect_in("rank 0 has 'size expression 1 + x', another rank has 'size expression 2 - x'", mesh_with(formula, other));
+  expect_in("rank 0 has 'size uniform', another rank has 'size automatic",
+            mesh_with(sizes::uniform(), sizes::automatic()));
+  expect_in("gradation 0.1', another rank has 'size automatic, gradation 0.2'",
+            mesh_with(sizes::automatic(0.1), sizes::automatic(0.2)));
+  expect_in("rank 0 has 'size 'a' expression 1 + x', another rank has 'size 'b' expression 2 - x'",
+            mesh_with(pair("a", formula, "b", other), pair("b", other, "a", formula)));
+  expect_in("another rank has 'size 'b b' expression 2 - x'", // and not the bad name on that rank alone
+            mesh_with(pair("a", formula, "b", other), pair("a", formula, "b b", other)));
+  expect_in("the smallest of 2 sizes', another rank has 'size the smallest of 0 sizes'",
+            mesh_with(pair("a", formula, "b", other), sizes::smallest({})));
+  MeshOptions options{.points = 200};
+  if (world.is_root())
+    options.regions = {{"west", rectangle("west", {0, 0}, {0.5, 1})}};
+  expect_in("rank 0 has '1 regions, 0 curves", // the items of root begin with those of the others
+            error_of<ConfigError>([&] { make_mesh(MPI_COMM_WORLD, plate(), options); }));
 }
 
 TEST(FacadeErrors, Shapes) {
