@@ -9,6 +9,8 @@
 
 #include <pybind11/stl.h>
 
+#include <cstdint>
+#include <exception>
 #include <memory>
 #include <optional>
 #include <string>
@@ -50,19 +52,51 @@ py::object failure_of(const GivenSize& given) {
   return py::none();
 }
 
-std::unique_ptr<Mesh> make(const py::object& comm, const Shape& shape, const py::object& size,
+/// What a mesh is made of.
+struct Given {
+  Shape shape;
+  GivenSize size;
+  MeshOptions options;
+};
+
+/// @brief Takes the arguments of a call in Python. Collective. @throws on a rank with a wrong argument, the exception
+/// that says so; on the other ranks, a ConfigError that names this rank
+Given agreed(MPI_Comm comm, const py::object& shape, const py::object& size, const py::dict& keywords) {
+  std::optional<Given> given;
+  std::exception_ptr failure;
+  try {
+    given.emplace(Given{shape.cast<Shape>(), size_of(size), options_of(keywords)});
+  } catch (...) {
+    failure = std::current_exception();
+  }
+  std::int64_t failed = 0;
+  {
+    const py::gil_scoped_release others_may_run;
+    const comm::Communicator ranks = comm::duplicate_of(comm);
+    failed = ranks.max(failure ? std::int64_t{ranks.rank()} : -1);
+  }
+  if (failure)
+    std::rethrow_exception(failure);
+  if (failed >= 0)
+    throw ConfigError(
+        fmt::format("rank {} was given a shape, a size or an option that is wrong, see its exception; all "
+                    "ranks must be given the same",
+                    failed));
+  return std::move(*given);
+}
+
+std::unique_ptr<Mesh> make(const py::object& comm, const py::object& shape, const py::object& size,
                            const py::dict& keywords) {
   const MPI_Comm handle = communicator_of(comm);
-  const MeshOptions options = options_of(keywords);
-  const GivenSize given = size_of(size);
+  const Given given = agreed(handle, shape, size, keywords);
   std::optional<Error> error;
   try {
     const py::gil_scoped_release others_may_run;
-    return std::make_unique<Mesh>(make_mesh(handle, shape, given.size, options));
+    return std::make_unique<Mesh>(make_mesh(handle, given.shape, given.size.size, given.options));
   } catch (const Error& failed) {
     error = failed;
   }
-  raise(*error, failure_of(given));
+  raise(*error, failure_of(given.size));
 }
 
 /// Lets errors of the library become exceptions of the package.

@@ -180,6 +180,15 @@ def error_of(**options):
     return None
 
 
+def alone(**options):
+    """The kinds of exceptions on all ranks if the last one is given other options."""
+    try:
+        parallel.mesh(comm, PLATE, points=300, **(options if comm.rank == comm.size - 1 else {}))
+    except (ConfigError, TypeError) as error:
+        return comm.allgather(type(error).__name__)
+    return None
+
+
 def poisson(points):
     """The L2 error of a solution with sources and a value on a part of the boundary, and what the tags say."""
     import ufl
@@ -265,6 +274,7 @@ def main(directory):
     found["one_size_fails"] = error_of(size={"a": "1 + x", "b": failing(last=True)})
     found["other_order"] = error_of(size=dict(reversed(SIZES.items()) if comm.rank else SIZES.items()))
     found["other_name"] = error_of(size={"a a" if comm.rank else "a": "1 + x"})
+    found["alone"] = [alone(nonsense=1), alone(size=3), alone(regions=5)]
     found["unknown_part"] = error_of(open_boundary=["hol"])
     lines = plain.to_meshio().cells_dict["line"]
     found["meshio"] = comm.allreduce(len(lines)) == comm.allreduce(plain.owned_facets)

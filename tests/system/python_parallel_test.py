@@ -71,6 +71,7 @@ class Parallel(WorkspaceCase):
         self.assertRegex(found["no_model"][1], "expected names of models among adcirc .*, found 'fvcon'")
         self.assertEqual(found["one_size_fails"][2:], ["ZeroDivisionError", 1])
         self.assertRegex(found["unknown_part"][1], "^open_boundary: no part of the boundary has the name 'hol'.*'hole'")
+        self.assertEqual(found["alone"], 3 * [(found["ranks"] - 1) * ["ConfigError"] + ["TypeError"]])
         if found["ranks"] == 1:
             self.assertIsNone(found["other_order"])
             return

@@ -127,8 +127,10 @@ def mesh(comm, shape, *, size=None, **options):
     start is an old mesh, of this function or of read(), or the path of a mesh file. Its points in the new shape are the
     first points of the new mesh. If shape and size differ little, this takes fewer sweeps than new points.
 
-    Errors are the exceptions of trime_mpi, on all ranks. If the function of the size fails on a rank, its own exception
-    is the cause (`__cause__`) of the one on that rank. If a check of the mesh fails, IncompleteError has it as `mesh`.
+    Errors are the exceptions of trime_mpi, on all ranks. If an argument of one rank is wrong, this rank raises the
+    TypeError or ValueError that says so, and the others a ConfigError that names the rank. If the function of the size
+    fails on a rank, its own exception is the cause (`__cause__`) of the one on that rank. If a check of the mesh fails,
+    IncompleteError has it as `mesh`.
     """
     check_library()
     start = options.pop("start", None)
