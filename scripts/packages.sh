@@ -27,7 +27,8 @@ trime_test_packages=(
   gmt-gshhg-full                                  # coasts of full resolution; 42 MB: without it one test is skipped
   python3-scipy gmsh                              # Poisson's equation, on meshes of Gmsh too, judge.py; benchmark.py --gmsh;
                                                   # scaling.py --model
-  libpetsc-real-dev metis scotch                  # the PETSc example (the rest of PETSc comes with dolfinx); edge_cut.py
+  libpetsc-real-dev python3-petsc4py              # the PETSc example (the rest of PETSc comes with dolfinx); to_petsc()
+  metis scotch                                    # edge_cut.py
   python3-pip python3-setuptools                  # installs scripts/python
   munge slurmctld slurmd slurm-client             # a SLURM of one node for the job scripts
   environment-modules                             # loads the module file

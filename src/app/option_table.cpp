@@ -562,9 +562,7 @@ const Option table[] = {
      .kind = OptionKind::text,
      .fallback = "auto",
      .meaning = "names of the open parts of the boundary, for `fort14`, `gr3`, `slf` and `fvcom`, separated by commas. "
-                "auto: parts "
-                "with the word "
-                "open, ocean or sea; none: no part is open"},
+                "auto: parts with the word open, ocean or sea; none: no part is open"},
     {.section = "output",
      .key = "coordinates",
      .kind = OptionKind::word,
@@ -572,8 +570,7 @@ const Option table[] = {
      .choices = "plane degrees",
      .meaning =
          "coordinates in files of `fort14`, `gr3`, `fvcom` and `2dm`; plane: those of the mesh; degrees: longitude and "
-         "latitude, "
-         "for meshes of contours that have a projection"},
+         "latitude, for meshes of contours that have a projection"},
     {.section = "output",
      .key = "cells",
      .kind = OptionKind::word,

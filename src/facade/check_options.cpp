@@ -26,7 +26,7 @@ std::string text_of(const std::optional<Box>& box) {
   return box ? fmt::format("({}, {}) to ({}, {})", box->min.x, box->min.y, box->max.x, box->max.y) : "none";
 }
 
-/// What the ranks can know of a size without a call of its function.
+/// Describes a size as far as ranks can compare it: kind, formula and numbers, but not the values of its function.
 std::string kind_of(const Size& size) {
   if (size.is_minimum())
     return fmt::format("the smallest of {} sizes", size.parts().size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a Mesh of the library holds.
+// The members of a Mesh of the library: the mesh, its record, and the communicator of its ranks.
 #pragma once
 
 #include "trime/comm/communicator.hpp"

@@ -10,8 +10,8 @@
 
 namespace trime::fitting {
 
-/// Returns by how much an estimate is raised for a boundary that will be simplified. @param share of the sites that lie
-/// on the boundary
+/// Returns the factor by which an estimate is raised for a boundary that will be simplified. @param weight
+/// FitRules::limits_on_ragged or limits_on_cornered @param share of the sites that lie on the boundary
 inline double larger_for_limits(double weight, double share) {
   return 1 + weight * share * share;
 }

@@ -21,13 +21,13 @@ constexpr double same_spacing = 0.02;
 // [1] If they differ by a larger share, so few sites are on the lattice that its spacing says nothing about the size.
 constexpr double other_spacing = 0.3;
 
-// [sites inside] If a larger share is missing, since the lattice loses whole rows at a time, there is no lattice. A
-// start from coarse to fine inserts sites if as many are missing.
+// [1] If a larger share of the sites inside is missing, since the lattice loses whole rows at a time, there is no
+// lattice. A start from coarse to fine inserts sites if as many are missing.
 constexpr double largest_shortage = 0.01;
 
-// [sites inside] If the zones have a larger share, sites are placed along the Hilbert curve everywhere, from coarse to
-// fine. Measured on coasts, grains and 11 wavy interfaces: with smaller shares the mean of alpha
-// was always smaller with a lattice; with 0.44 it was smaller in two of three cases.
+// [1] If the zones have a larger share of the sites inside, sites are placed along the Hilbert curve everywhere, from
+// coarse to fine. Measured on coasts, grains and 11 wavy interfaces: with smaller shares the mean of alpha was always
+// smaller with a lattice; with 0.44 it was smaller in two of three cases.
 constexpr double largest_zones = 0.4;
 
 /// Lays out the boundary at a fitted size times a number, and with the limits that it then needs.

@@ -28,10 +28,11 @@ struct ZonedLattice {
 /// together have as many sites as wanted. If spacing and uniform size differ by more than 2 %, the boundary is laid out
 /// again at a size between both, a few times. Collective.
 /// @param fitted the size that the search for a graded size has found @param fit the result of that search; its stage
-/// is left as it is, or without a container grid, unless a lattice is returned
+/// gets an empty container grid for the expected points, and may only be used further if nothing is returned
 /// @param expected number of all points; if the options set no points, the spacing is the uniform size
-/// @return nothing if the size is not uniform elsewhere, the zones have too large a share of the sites, or no spacing
-/// near the size is found
+/// @return nothing if the size is not uniform elsewhere, the zones have too large a share of the sites, too few sites
+/// fit on the lattice, or no spacing near the size is found
+/// @throws GeometryError as lay_stage, on all ranks together
 std::optional<ZonedLattice> fit_zoned_lattice(const LayoutContext& context, const FittedSize& fitted, StageFit& fit,
                                               double expected);
 

@@ -33,7 +33,8 @@ struct Generalised {
   polygon::Simplification counts;
 };
 
-/// Computes the sizes at the vertices that are not known yet, with all threads. Local. Rethrows what the field throws.
+/// Computes the sizes at those vertices of the boundary at which `size` does not know them yet. Uses all threads.
+/// Local. Rethrows what the field throws.
 /// @pre no other thread uses `size`
 void remember_at_vertices(const geometry::Boundary& boundary, sizing::RememberedSize& size);
 

@@ -52,8 +52,8 @@ py::object failure_of(const GivenSize& given) {
   return py::none();
 }
 
-/// What a mesh is made of.
-struct Given {
+/// The arguments of a call of make_mesh, after they were taken from Python.
+struct Arguments {
   Shape shape;
   GivenSize size;
   MeshOptions options;
@@ -61,11 +61,11 @@ struct Given {
 
 /// @brief Takes the arguments of a call in Python. Collective. @throws on a rank with a wrong argument, the exception
 /// that says so; on the other ranks, a ConfigError that names this rank
-Given agreed(MPI_Comm comm, const py::object& shape, const py::object& size, const py::dict& keywords) {
-  std::optional<Given> given;
+Arguments agreed_arguments(MPI_Comm comm, const py::object& shape, const py::object& size, const py::dict& keywords) {
+  std::optional<Arguments> given;
   std::exception_ptr failure;
   try {
-    given.emplace(Given{shape.cast<Shape>(), size_of(size), options_of(keywords)});
+    given.emplace(Arguments{shape.cast<Shape>(), size_of(size), options_of(keywords)});
   } catch (...) {
     failure = std::current_exception();
   }
@@ -88,7 +88,7 @@ Given agreed(MPI_Comm comm, const py::object& shape, const py::object& size, con
 std::unique_ptr<Mesh> make(const py::object& comm, const py::object& shape, const py::object& size,
                            const py::dict& keywords) {
   const MPI_Comm handle = communicator_of(comm);
-  const Given given = agreed(handle, shape, size, keywords);
+  const Arguments given = agreed_arguments(handle, shape, size, keywords);
   std::optional<Error> error;
   try {
     const py::gil_scoped_release others_may_run;

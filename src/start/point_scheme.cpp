@@ -208,7 +208,7 @@ PointScheme::First PointScheme::first_of_lattice() {
   return std::move(fit.stage);
 }
 
-/// A uniform size that is not the same at all places.
+/// Makes the start for a uniform size that the boundary lowers or raises at some places.
 PointScheme::First PointScheme::first_of_graded_size() {
   fit_.lower_uniform();
   choose_divisions();
@@ -223,6 +223,7 @@ PointScheme::First PointScheme::first_of_graded_size() {
   return first_of_zoned_lattice(std::move(*lattice));
 }
 
+/// Places the sites of a lattice and those in the zones.
 PointScheme::First PointScheme::first_of_zoned_lattice(fitting::ZonedLattice found) {
   scheme_ = Scheme::lattice;
   last_stage_ = 0;
@@ -234,10 +235,10 @@ PointScheme::First PointScheme::first_of_zoned_lattice(fitting::ZonedLattice fou
                         100 * static_cast<double>(found.in_zones) /
                             std::fmax(1, static_cast<double>(found.in_zones + on_lattice)));
   fitting::check_point_limit(given_.options, static_cast<double>(on_lattice + found.in_zones + stage.placed_first()));
-  mesh::SiteList sites = sites_along_curve(stage, static_cast<double>(found.in_zones), *found.along_curve);
+  const mesh::SiteList in_zones = sites_along_curve(stage, static_cast<double>(found.in_zones), *found.along_curve);
   const auto time = given_.timers.scope("start");
-  const mesh::SiteList lattice = start.sites(found.runs);
-  sites.insert(sites.end(), lattice.begin(), lattice.end());
+  mesh::SiteList sites = start.sites(found.runs, in_zones.size() + static_cast<std::size_t>(stage.placed_first()));
+  sites.insert(sites.end(), in_zones.begin(), in_zones.end());
   fit_.place_sites(stage, std::move(sites));
   return std::move(stage);
 }
@@ -275,8 +276,6 @@ PointScheme::First PointScheme::first_of_insertion() {
   return stage;
 }
 
-/// The factor is fitted for the final mesh, by a coarse integral. Then the coarsest start is taken that still has as
-/// many sites inside as on the boundary: a boundary full of corners does not become coarser with the size.
 PointScheme::First PointScheme::first_of_divisions() {
   std::variant<fitting::StageFit, fitting::TooFewPoints> found = find_last();
   if (fitting::TooFewPoints* few = std::get_if<fitting::TooFewPoints>(&found))
@@ -284,13 +283,16 @@ PointScheme::First PointScheme::first_of_divisions() {
   return first_of_divisions(std::move(std::get<fitting::StageFit>(found)));
 }
 
-/// The last stage of the divisions, by a coarse integral if there are several.
+/// Fits the factor for the final mesh, by a coarse integral if divisions lead to it.
 std::variant<fitting::StageFit, fitting::TooFewPoints> PointScheme::find_last() {
   return fit_.find_density(
       expected_points(),
       last_stage_ == 0 ? 1 : std::fmax(fitting::LayoutRules::coarse_integral, std::ldexp(1.0, last_stage_)));
 }
 
+/// Takes the coarsest start that still has as many sites inside as on the boundary: a boundary full of corners does not
+/// become coarser with the size.
+/// @param fit of the final mesh
 PointScheme::First PointScheme::first_of_divisions(fitting::StageFit fit) {
   shortage_ = std::move(fit.shortage);
   const double points = fit.inner + static_cast<double>(fit.stage.placed_first());

@@ -199,8 +199,8 @@ public:
   bool certified() const;
   const mesh::Checks& checks() const;
   const mesh::QualitySummary& quality() const;
-  /// @brief Returns what the mesh says to each rule of the models in MeshOptions::accept, or in the config of the file
-  /// that was read. Same on all ranks. Not collective.
+  /// @brief Returns how well the mesh obeys each rule of the models in MeshOptions::accept, or in the config of the
+  /// file that was read. Same on all ranks. Not collective.
   std::vector<Verdict> verdicts() const;
   /// @brief Returns how many points each of several sizes decides; empty if there was one size. Same on all ranks. Not
   /// collective.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a mesh file says about the rules of models and about several sizes. Plain data.
+// Results about a mesh, as its file lists them: how well it obeys each rule of a model, and how many points each of
+// several sizes decides. Plain data.
 #pragma once
 
 #include "trime/core/types.hpp"
@@ -10,7 +11,7 @@
 
 namespace trime::record {
 
-/// What a mesh says to one rule of a model of coasts or oceans.
+/// Says how well a mesh obeys one rule of a model of coasts or oceans.
 struct Verdict {
   std::string solver;                  ///< the model: "adcirc", "schism", "telemac", "fvcom", "delft3d", "mpas"
   std::string rule;                    ///< what the rule limits, such as "least_angle"; see configs/formats.md

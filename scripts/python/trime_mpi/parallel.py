@@ -177,9 +177,9 @@ class Mesh:
     owned_points, owned_triangles, owned_facets, owned_curve_edges and owned_interfaces count what this rank owns.
     first_point is the global id of the first point. total_points and total_triangles count over all ranks.
 
-    `verdicts` lists what the mesh says to the rules of models, see trime_mpi.read.Verdict. `size_shares` is a dict with
-    the number of points that each of several sizes decides, by its section in a config, such as "size.wave". `sweeps`
-    says how often the points were moved, 0 for a mesh that was read.
+    `verdicts` says how well the mesh obeys the rules of models, see trime_mpi.read.Verdict. `size_shares` is a dict
+    with the number of points that each of several sizes decides, by its section in a config, such as "size.wave".
+    `sweeps` says how often the points were moved, 0 for a mesh that was read.
 
     The pair `periods` has the periods of the container, 0 where it is not periodic. Triangles across its border have
     points on both sides. Facets on a split curve have the number of parts plus that of the curve in facet_parts;

@@ -27,7 +27,7 @@ class Check:
 
 @dataclasses.dataclass(frozen=True)
 class Verdict:
-    """What a mesh says to one rule of a model of coasts or oceans, see `accept` in configs/formats.md.
+    """How well a mesh obeys one rule of a model of coasts or oceans, see `accept` in configs/formats.md.
 
     The text solver names the model, and rule what is limited, such as "least_angle". If is_least is True, limit is the
     smallest allowed value, otherwise the largest one. The worst value lies at place (x, y); a rule about the whole mesh
@@ -186,7 +186,7 @@ class Mesh:
 
     @functools.cached_property
     def verdicts(self):
-        """What the mesh says to the rules of the models in `accept`, a list of Verdict."""
+        """How well the mesh obeys the rules of the models in `accept`: a list of Verdict."""
         return verdicts_of(self.tables.get("accept", {}))
 
     @functools.cached_property
